@@ -42,6 +42,8 @@ class RingScan {
   RingScan(MatrixXd series, const std::vector<int>& place, int ring)
       : series_(std::move(series)), n_(series_.rows()), orders_(std::min<Index>(ring / 2, n_ / 2)) {
     make_waves(place, ring);
+    ramps_.resize(0, n_);  // of few places there may be none
+    combs_.resize(0, n_);
     make_ramps_and_combs(place, ring);
     make_saws(place, ring);
     for (Index s = 0; s < series_.cols(); ++s) {
