@@ -169,13 +169,14 @@ TEST(FlankWaves, ALeaningProfileIsNotAScaleAndAThickness) {
 TEST(GhostOrders, ThatGrowAndShrinkOnceATurnAreNotCountedBackwards) {
   // On 18 teeth an order of 46 counted the other way follows one of 44 nearly as well.
   const MadeGear gear = spur(18);
-  for (const unsigned seed : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U}) {
+  // (draws in which the other count looks surer)
+  for (const unsigned seed : {50U, 160U, 185U}) {
     const auto ghost = [seed](const MadeGear& g, const FlankSpot& s, auto&) {
       const double from = roll_of_radius(g, g.root_form_mm), to = roll_of_radius(g, g.tip_mm);
       const double turned = (from + 0.5 * (s.u + 1.0) * (to - from)) / g.base();
       const double around = 2.0 * M_PI * (s.tooth - 1) / g.teeth;
       return 1.2 * (1.0 + 0.8 * std::cos(around - 0.8 * seed)) *
-             std::cos(44.0 * (around - s.side * turned) + seed);
+             std::cos(44.0 * (around - s.side * turned) + seed + s.side);
     };
     InspectionOptions options = traced({}, 0.37, seed);
     options.helix = false;

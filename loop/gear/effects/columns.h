@@ -84,7 +84,7 @@ template <class Function>
 /// 1 on a run of teeth about a middle, 0 far from it: it begins and ends over some teeth.
 [[nodiscard]] double in_soft_run(const FlankGeometry& geometry, int tooth, double middle,
                                  double teeth, double edge_teeth);
-/// "coming up and dying away over about 3 teeth, "; empty where not asked for.
+/// "with soft edges over about 3 teeth, "; empty where not asked for.
 [[nodiscard]] std::string over_edges(double edge_teeth, bool asked);
 
 /// Limits of a height over the face, and of a diameter between root form and tip.

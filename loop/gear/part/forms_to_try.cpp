@@ -162,6 +162,14 @@ std::vector<Effect> swellings_around(int teeth, FlankChoice flank) {
   return forms;
 }
 
+std::vector<Effect> combs_of(int every, FlankChoice flank, double opposite) {
+  std::vector<Effect> combs;
+  for (int first = 1; first <= every; ++first)
+    combs.push_back(
+        {find_family("unnamed_comb"), flank, {double(every), double(first), 0.0, 0.0, opposite}});
+  return combs;
+}
+
 namespace {
 
 /// Numbers from one to another, each beyond a few a fifth larger than the one before: between them
@@ -181,12 +189,10 @@ int step_of(int count) { return std::max(1, count / 6); }
 /// Combs and saws: what begins anew after some teeth.
 void add_repeating(int z, FlankChoice flank, double opposite,
                    std::vector<std::vector<Effect>>& sets) {
-  constexpr int kMostEvery = 8, kFewestTeeth = 4;  // of a comb; of a saw
+  constexpr int kFewestTeeth = 4;  // of a saw
   std::vector<Effect> combs, saws;
-  for (int every = 2; every <= kMostEvery && 3 * every <= z; ++every)
-    for (int first = 1; first <= every; ++first)
-      combs.push_back(
-          {find_family("unnamed_comb"), flank, {double(every), double(first), 0.0, 0.0, opposite}});
+  for (int every = 2; every <= kMostOfComb && 3 * every <= z; ++every)
+    for (Effect& comb : combs_of(every, flank, opposite)) combs.push_back(std::move(comb));
   for (const int every : counts_between(kFewestTeeth, z / 2))
     for (int first = 1; first <= (z % every == 0 ? every : z); first += step_of(every))
       saws.push_back(

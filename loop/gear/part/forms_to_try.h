@@ -46,6 +46,10 @@ struct CourseOverFlanks {
   double profile = 0.0, face = 0.0;
 };
 
+/// One tooth in so many that stands out (opposite: aside), from each of the first on.
+[[nodiscard]] std::vector<Effect> combs_of(int every, FlankChoice flank, double opposite);
+inline constexpr int kMostOfComb = 8;  ///< one tooth in so many, at most
+
 /// Forms that go from tooth to tooth, at every place: sectors and drifts of a course; of heights
 /// also dents, saws, combs, swellings; alike or opposite on both flanks, or of one. Those of a set
 /// differ by their shape alone, and have as many columns.

@@ -80,11 +80,11 @@ void PartLoop::run() {
   const bool scan_for_more = !options_.joined && !options_.names_only && !is_rounding();
   if (scan_for_more) nominate();
   explain();
-  if (scan_for_more) explain_with_moved_sections();
+  if (scan_for_more) explain_with_whole_forms();
   if (scan_for_more && begins_better()) return;
   constexpr int kRounds = 4, kMostBans = 6;
   if (scan_for_more) explain_what_is_left();
-  if (scan_for_more) explain_with_moved_sections();
+  if (scan_for_more) explain_with_whole_forms();
   if (scan_for_more && drop_idle_forms()) explain();
   for (int round = 0; scan_for_more && round < kRounds && drop_doubtful_orders(); ++round) explain();
   for (int round = 0; scan_for_more && round < kMostBans && ban_what_forms_explain(); ++round)

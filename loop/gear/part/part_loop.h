@@ -100,8 +100,8 @@ class PartLoop {
   [[nodiscard]] std::vector<Effect> names_alike(const Effect& form) const;
   [[nodiscard]] bool take_up_remainder();
   void take_up(const RemainderFinding& finding);
-  void explain_with_moved_sections();
-  [[nodiscard]] bool take_up_moved_sections();
+  void explain_with_whole_forms();
+  [[nodiscard]] bool take_up_whole_forms();
   [[nodiscard]] std::vector<double> left_with(const std::vector<std::size_t>& these) const;
   [[nodiscard]] std::vector<Effect> with_form_on_teeth(std::vector<std::size_t>& these,
                                                        double& p_value) const;

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "trueflank/loop/discovery/distributions.h"
-#include "trueflank/loop/gear/finite_displacement.h"
 #include "trueflank/loop/gear/fit/trial_fit.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/part_loop.h"
@@ -176,20 +175,15 @@ bool PartLoop::put_form_for_multiples(const WavesAround& around, int of, std::si
 /// Swellings that repeat (sinks at gates, ribs, jaws) are waves of an order and its multiples, and
 /// a mean that may get a name; one tooth in three or more is a wave of that many teeth, and a mean.
 bool PartLoop::tell_as_repeating() {
-  constexpr int kMostEvery = 8;
   const int z = geometry_.teeth();
   for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
     const WavesAround around = waves_around(flank);
     if (around.waves.empty()) continue;
-    for (int every = 3; every <= kMostEvery; ++every) {
+    for (int every = 3; every <= kMostOfComb; ++every) {
       if (z % every != 0) continue;
-      std::vector<Effect> combs;
-      for (int first = 1; first <= every; ++first)
-        for (const double opposite : {0.0, 1.0})
-          if (opposite == 0.0 || flank == FlankChoice::kBoth)
-            combs.push_back({find_family("unnamed_comb"),
-                             flank,
-                             {double(every), double(first), 0.0, 0.0, opposite}});
+      std::vector<Effect> combs = combs_of(every, flank, 0.0);
+      if (flank == FlankChoice::kBoth)
+        for (Effect& aside : combs_of(every, flank, 1.0)) combs.push_back(std::move(aside));
       if (put_form_for_multiples(around, z / every, 1, combs)) return true;
     }
     std::vector<std::vector<Effect>> swellings(kMostSwellings + 1);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/part/runs_along.h"
 #include "trueflank/loop/gear/remainder_around.h"
@@ -14,17 +15,12 @@
 namespace trueflank::loop {
 namespace {
 
-/// A course over the flanks: degrees over profile and face.
-struct Course {
-  double profile = 0.0, face = 0.0;
-};
-
-bool has_course(const Effect& effect, std::size_t k, const Course& course) {
+bool has_course(const Effect& effect, std::size_t k, const CourseOverFlanks& course) {
   return effect.shape[k] == course.profile && effect.shape[k + 1] == course.face;
 }
 
 /// A wave around the gear of the course, or where that is none one that has a name.
-bool is_wave_of(const Effect& effect, const Course& course) {
+bool is_wave_of(const Effect& effect, const CourseOverFlanks& course) {
   if (!(effect.order() > 0.0) || effect.family->tells_order_along_profile ||
       effect.family->displacement_mm)
     return false;
@@ -35,7 +31,8 @@ bool is_wave_of(const Effect& effect, const Course& course) {
 }
 
 /// The same on every tooth and of that course: the mean of what drifts to nothing.
-bool is_level_of(const FlankGeometry& geometry, const Effect& effect, const Course& course) {
+bool is_level_of(const FlankGeometry& geometry, const Effect& effect,
+                 const CourseOverFlanks& course) {
   constexpr double kAlike = 0.99;
   if (effect.columns() != 1 || effect.order() != 0.0 || effect.family->local ||
       runs_of(geometry, effect, Flanks::kOfEither) == Runs::kOtherwise)
@@ -51,18 +48,18 @@ bool is_level_of(const FlankGeometry& geometry, const Effect& effect, const Cour
 }
 
 /// Some neighbours that stand out or aside are the beginning of what levels off.
-bool is_sector_of(const Effect& effect, const Course& course) {
+bool is_sector_of(const Effect& effect, const CourseOverFlanks& course) {
   return (effect.family == find_family("unnamed_sector") && has_course(effect, 2, course)) ||
          (effect.family == find_family("unnamed_moved_sector") && course.profile == 0.0 &&
           course.face == 0.0);
 }
 
 /// Single teeth of it are its beginning, too.
-bool is_tooth_of(const Effect& effect, const Course& course) {
+bool is_tooth_of(const Effect& effect, const CourseOverFlanks& course) {
   return effect.family == find_family("unnamed_tooth_form") && has_course(effect, 1, course);
 }
 
-bool is_ramp_of(const Effect& effect, const Course& course) {
+bool is_ramp_of(const Effect& effect, const CourseOverFlanks& course) {
   return (effect.family == find_family("unnamed_ramp") ||
           effect.family == find_family("unnamed_levelling")) &&
          has_course(effect, 1, course);
@@ -168,8 +165,8 @@ std::vector<std::vector<Effect>> PartLoop::drifts_in_place_of(const std::vector<
 /// Teeth that drift aside as one body, and a wave that does not close, are drifts, sectors, waves
 /// and odd teeth together.
 bool PartLoop::tell_as_drift_aside() {
-  const Course level;
-  const Course slope{1.0, 0.0};
+  const CourseOverFlanks level;
+  const CourseOverFlanks slope{1.0, 0.0};
   std::vector<std::size_t> these, moved, sloping;
   std::set<double> orders;
   bool begins = false;
@@ -221,8 +218,9 @@ bool PartLoop::tell_as_drift_aside() {
 /// A drift beside larger effects, or on one flank, is not seen before waves of several orders, and
 /// odd teeth where it begins anew, have taken it up: together they are tried against it.
 bool PartLoop::tell_as_drift() {
-  for (const Course& course :
-       {Course{}, Course{1.0, 0.0}, Course{0.0, 1.0}, Course{2.0, 0.0}, Course{0.0, 2.0}}) {
+  for (const CourseOverFlanks& course :
+       {CourseOverFlanks{}, CourseOverFlanks{1.0, 0.0}, CourseOverFlanks{0.0, 1.0},
+        CourseOverFlanks{2.0, 0.0}, CourseOverFlanks{0.0, 2.0}}) {
     std::vector<std::size_t> waves, teeth, levels;
     std::set<double> orders;
     bool drifts = false;

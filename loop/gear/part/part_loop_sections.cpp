@@ -245,7 +245,7 @@ std::vector<Effect> PartLoop::with_reversal(std::vector<std::size_t>& these) con
 }
 
 /// True where one of these forms stands for what was chosen: it is taken up in place of that.
-bool PartLoop::take_up_moved_sections() {
+bool PartLoop::take_up_whole_forms() {
   std::vector<std::size_t> these;
   RemainderFinding finding;
   std::vector<Effect> with = with_form_on_teeth(these, finding.p_value);
@@ -277,10 +277,10 @@ bool PartLoop::take_up_moved_sections() {
   return true;
 }
 
-void PartLoop::explain_with_moved_sections() {
+void PartLoop::explain_with_whole_forms() {
   constexpr int kMost = 3;
   if (options_.joined || table_->rows.empty()) return;
-  for (int round = 0; round < kMost && take_up_moved_sections(); ++round) explain();
+  for (int round = 0; round < kMost && take_up_whole_forms(); ++round) explain();
 }
 
 }  // namespace trueflank::loop

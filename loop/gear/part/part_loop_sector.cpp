@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/part/runs_along.h"
 
@@ -360,7 +361,7 @@ void PartLoop::tell_teeth_beside_dents() {
     const EffectFamily* form = form_instead(e);
     if (form == nullptr || !effects_[e].family->local) continue;
     const bool beside = std::any_of(effects_.begin(), effects_.end(), [&](const Effect& other) {
-      const bool of_some = !other.shape.empty() && other.family->shape_names[0] == "from_tooth";
+      const bool of_some = gear_effects::is_of_teeth(other);
       if (other.family != dent && other.family != aside && !of_some) return false;
       const double half = of_some                ? 0.5 * (other.shape[1] - 1.0)
                           : other.family == dent ? other.shape[1]
