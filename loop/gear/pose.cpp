@@ -196,7 +196,8 @@ class PoseSearch {
     });
     std::stable_sort(tried.begin(), tried.end(), cheaper);
     std::vector<Eigen::Vector3d> axes;
-    for (const auto& [unlike, axis] : tried) {
+    for (const auto& found : tried) {
+      const Eigen::Vector3d& axis = found.second;
       const bool is_new = std::none_of(axes.begin(), axes.end(), [&](const Eigen::Vector3d& known) {
         return known.cross(axis).norm() < kSame_rad;
       });

@@ -249,6 +249,14 @@ std::vector<Told> forms(const loop::FlankGeometry& g) {
        1,
        0,
        -1},
+      {"unnamed_facing_one_side",
+       {90, 1},
+       "flanks that face towards 90 deg stand out",
+       "flanks that face towards 90 deg lie back",
+       1,
+       1,
+       0,
+       0},
       {"unnamed_step_of_teeth",
        {5, 1, 0, 1, 5, 0},
        "on tooth 5 alone, a step over the face at a height of 5 mm: above it the flanks stand out",
@@ -336,8 +344,8 @@ TEST(SignWords, AreSaidOfEveryFormOfOneCoefficient) {
     // (a patch is a dish with an edge; the others have two coefficients)
     static const std::set<std::string> kOther{
         "unnamed_patch", "unnamed_waviness", "unnamed_marks", "unnamed_waves_from",
-        "unnamed_waves_dying", "unnamed_bow", "unnamed_field", "unnamed_moved_sector",
-        "unnamed_drift_aside", "unnamed_broken_wave",
+        "unnamed_waves_dying", "unnamed_bow", "unnamed_field", "unnamed_facing",
+        "unnamed_moved_sector", "unnamed_drift_aside", "unnamed_broken_wave",
         // (play is said by its axis; the words of those of some teeth are those of all)
         "unnamed_wobble", "unnamed_reversal", "unnamed_kink_of_teeth", "unnamed_bend_of_teeth",
         "unnamed_waviness_of_teeth"};

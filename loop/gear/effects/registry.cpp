@@ -54,6 +54,8 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_soft_sector(),
         unnamed_bow(),
         unnamed_field(),
+        unnamed_facing(),
+        unnamed_facing_one_side(),
         unnamed_wobble(),
         unnamed_one_side(),
         unnamed_reversal(),

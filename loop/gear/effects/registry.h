@@ -78,6 +78,8 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_soft_sector();
 [[nodiscard]] EffectFamily unnamed_bow();
 [[nodiscard]] EffectFamily unnamed_field();
+[[nodiscard]] EffectFamily unnamed_facing();
+[[nodiscard]] EffectFamily unnamed_facing_one_side();
 [[nodiscard]] EffectFamily unnamed_wobble();
 [[nodiscard]] EffectFamily unnamed_one_side();
 [[nodiscard]] EffectFamily unnamed_reversal();

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/gear/local/forms_on_teeth.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "trueflank/base/units.h"
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/remainder_around.h"
@@ -40,7 +42,7 @@ void take_out_slow(CellsAlong& sum, const CellsAlong& count) {
   const Eigen::Matrix<double, kCellsAlong, 3> weighted = count.matrix().asDiagonal() * slow;
   Eigen::Matrix3d normal = slow.transpose() * weighted;
   normal.diagonal().array() += kRidge * normal.trace();
-  sum -= (weighted * normal.ldlt().solve(slow.transpose() * sum.matrix())).array();
+  sum -= (weighted * symmetric_solution(normal, slow.transpose() * sum.matrix())).array();
 }
 
 /// Squares that a mean course takes out.
@@ -108,21 +110,25 @@ struct Tried {
   double square = 0.0;
 };
 
-template <int kColumns, class FormAt>
-double square_beside_slow(const OnFlank& cells, const FormAt& form_at) {
+/// A column of a form, from where along the flank a cell is, 0 to 1.
+template <class FormAt>
+Eigen::VectorXd column_of(const FormAt& form_at) {
+  Eigen::VectorXd column(kCellsAlong);
+  for (int c = 0; c < kCellsAlong; ++c) column(c) = form_at(0.5 * (centre_of(c) + 1.0));
+  return column;
+}
+
+/// Squares that level, slope, bow and a form's columns take out of a course together.
+double square_beside_slow(const OnFlank& cells, const std::vector<Eigen::VectorXd>& form) {
   constexpr double kRidge = 1e-9;
-  Eigen::Matrix<double, kCellsAlong, 3 + kColumns> columns;
-  for (int c = 0; c < kCellsAlong; ++c) {
-    const double x = centre_of(c);
-    const std::array<double, kColumns> form = form_at(0.5 * (x + 1.0));
-    columns.row(c).template head<3>() << 1.0, x, x * x;
-    for (int k = 0; k < kColumns; ++k) columns(c, 3 + k) = form[static_cast<std::size_t>(k)];
-  }
-  Eigen::Matrix<double, 3 + kColumns, 3 + kColumns> normal =
-      columns.transpose() * cells.count.matrix().asDiagonal() * columns;
+  Eigen::MatrixXd columns(kCellsAlong, 3 + static_cast<int>(form.size()));
+  for (int c = 0; c < kCellsAlong; ++c)
+    columns.row(c).head<3>() << 1.0, centre_of(c), centre_of(c) * centre_of(c);
+  for (std::size_t k = 0; k < form.size(); ++k) columns.col(3 + static_cast<int>(k)) = form[k];
+  Eigen::MatrixXd normal = columns.transpose() * cells.count.matrix().asDiagonal() * columns;
   normal.diagonal().array() += kRidge * normal.trace();
-  const Eigen::Matrix<double, 3 + kColumns, 1> right = columns.transpose() * cells.sum.matrix();
-  return right.dot(normal.ldlt().solve(right));
+  const Eigen::VectorXd right = columns.transpose() * cells.sum.matrix();
+  return right.dot(symmetric_solution(normal, right));
 }
 
 /// What the course of a run looks like: waves, a groove or ridge, a step, a rise towards an end.
@@ -150,27 +156,28 @@ std::vector<Effect> forms_like(const FlankGeometry& geometry, const OnFlank& cou
   std::vector<Tried> waves, bands, steps, rises;
   for (double n = kFewestWaves; n <= kMostWaves; n += kStep)
     waves.push_back(
-        {{double(face), range_mm / n}, square_beside_slow<2>(course, [&](double at) {
-           return std::array<double, 2>{std::cos(kTwoPi * n * at), std::sin(kTwoPi * n * at)};
-         })});
+        {{double(face), range_mm / n},
+         square_beside_slow(course,
+                            {column_of([&](double at) { return std::cos(kTwoPi * n * at); }),
+                             column_of([&](double at) { return std::sin(kTwoPi * n * at); })})});
   for (const double half : {0.03, 0.05, 0.08, 0.13, 0.2})
     for (double at = 0.05; at < 0.98; at += 0.5 * half)
-      bands.push_back(
-          {{double(face), place(at), half * range_mm}, square_beside_slow<1>(course, [&](double x) {
-             return std::array<double, 1>{std::exp(-std::pow((x - at) / half, 2))};
-           })});
+      bands.push_back({{double(face), place(at), half * range_mm},
+                       square_beside_slow(course, {column_of([&](double x) {
+                                            return std::exp(-std::pow((x - at) / half, 2));
+                                          })})});
   for (double at = 0.1; at < 0.95; at += 0.05)
-    steps.push_back({{double(face), place(at)}, square_beside_slow<1>(course, [&](double x) {
-                       return std::array<double, 1>{x > at ? 1.0 : 0.0};
-                     })});
+    steps.push_back(
+        {{double(face), place(at)},
+         square_beside_slow(course, {column_of([&](double x) { return x > at ? 1.0 : 0.0; })})});
   if (!opposite)
     for (Tried& step : steps) step.shape.push_back(0.0);
   for (const double end : {-1.0, 1.0})
     for (const double within : {0.04, 0.08, 0.15})
-      rises.push_back(
-          {{double(face), within * range_mm, end}, square_beside_slow<1>(course, [&](double x) {
-             return std::array<double, 1>{std::exp(-(end < 0.0 ? x : 1.0 - x) / within)};
-           })});
+      rises.push_back({{double(face), within * range_mm, end},
+                       square_beside_slow(course, {column_of([&](double x) {
+                                            return std::exp(-(end < 0.0 ? x : 1.0 - x) / within);
+                                          })})});
   add_best("unnamed_waviness", std::move(waves), false);
   add_best("unnamed_band", std::move(bands), true);
   add_best("unnamed_step", std::move(steps), true);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Names and waves around the gear that are parts of one thing: of a field in the plane, of waves
-// over the profile that change sign, of bows that come and go once around.
+// Names and waves around the gear that are parts of one thing: of a field in the plane, of what
+// hangs on the direction that a flank faces, of waves over the profile that change sign, of bows
+// that come and go once around.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -67,6 +68,56 @@ bool PartLoop::tell_as_field() {
       if (put_one_form_for(all, fields) || put_one_form_for(rest, fields)) return true;
     }
   return put_one_form_for(all, fields);
+}
+
+/// What hangs on the direction that a flank faces is waves around the gear that are in other phases
+/// on its two flanks; of flanks that face one side, also a mean and what looks like an
+/// eccentricity, which is tried beside it too.
+bool PartLoop::tell_as_facing() {
+  constexpr int kMostWaves = 4;
+  constexpr double kStep_deg = 10.0;
+  std::vector<std::size_t> waves, levels;
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+    const Effect& effect = effects_[e];
+    if (effect.flank != FlankChoice::kBoth || effect.family->local ||
+        effect.family->tells_order_along_profile)
+      continue;
+    const double order = effect.order();
+    if ((order >= 1.0 && order <= kMostWaves) || moves_the_teeth(effect) ||
+        effect.family == find_family("unnamed_facing"))
+      waves.push_back(e);
+    else if (runs_of(geometry_, effect) == Runs::kNowhere)
+      levels.push_back(e);
+  }
+  std::vector<std::size_t> all = waves;
+  all.insert(all.end(), levels.begin(), levels.end());
+  std::sort(all.begin(), all.end());
+  constexpr std::size_t kFewest = 3;
+  std::vector<std::vector<std::size_t>> sets;
+  if (waves.size() >= kFewest) sets.push_back(all);
+  if (waves.size() >= kFewest && !levels.empty()) sets.push_back(waves);
+  std::vector<Effect> forms;
+  for (double towards_deg = 0.0; towards_deg < 360.0; towards_deg += kStep_deg)
+    for (const double power : {1.0, 2.0})
+      forms.push_back(
+          {find_family("unnamed_facing_one_side"), FlankChoice::kBoth, {towards_deg, power}});
+  std::vector<std::vector<Effect>> besides{{}};
+  if (levels.empty())  // (a bow may have taken up a part of the mean)
+    besides.push_back({{find_family("unnamed"), FlankChoice::kBoth, {0.0, 0.0, 0.0, 0.0}}});
+  for (std::size_t c = 0; c < candidates_.size(); ++c)
+    if (moves_the_teeth(candidates_[c]) && !unseen_[c]) besides.push_back({candidates_[c]});
+  for (const std::vector<std::size_t>& set : sets)
+    for (const std::vector<Effect>& beside : besides)
+      if (put_one_form_for(set, forms, beside)) return true;
+  for (int k = 2; k <= kMostWaves; ++k) {
+    std::vector<std::size_t> these;
+    for (const std::size_t e : waves)
+      if (effects_[e].order() == k) these.push_back(e);
+    if (these.size() > 1 &&
+        put_one_form_for(these, {{find_family("unnamed_facing"), FlankChoice::kBoth, {double(k)}}}))
+      return true;
+  }
+  return false;
 }
 
 /// A wave over the profile whose sign changes from tooth to tooth (a cutter of two starts) is every
