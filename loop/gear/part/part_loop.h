@@ -134,6 +134,7 @@ class PartLoop {
   void drop_doubtful_names();
   void join_flanks();
   void tell_two_names_as_one();
+  void tell_one_flank_as_two_names_of_all();
   void tell_teeth_of_one_flank();
   void tell_bows_with_a_level();
   void drop_echoes_of_forms();

@@ -374,6 +374,7 @@ void PartLoop::tell_parts_of_a_form() {
   tell_forms_of_some_teeth();
   tell_forms_of_teeth();
   tell_forms_of_sectors();
+  tell_one_flank_as_two_names_of_all();
   tell_as_one_form();
   tell_parts_beside_forms();
   tell_parts_of_a_sector();
@@ -392,6 +393,7 @@ void PartLoop::tell_parts_of_a_form() {
   name_terms_beside_forms();
   name_forms_beside_names();
   tell_two_names_as_one();
+  tell_one_flank_as_two_names_of_all();
   tell_teeth_of_one_flank();
 }
 
