@@ -133,6 +133,7 @@ class PartLoop {
   void drop_what_mends_a_shape();
   void drop_doubtful_names();
   void join_flanks();
+  void add_names(int most_values);
   void tell_two_names_as_one();
   void tell_one_flank_as_two_names_of_all();
   void tell_teeth_of_one_flank();

@@ -165,25 +165,6 @@ void PartLoop::join_flanks() {
     }
 }
 
-namespace {
-
-/// True for one column that is the same on every tooth.
-bool is_name_of_all_teeth(const Effect& effect) {
-  return effect.family->named && !effect.family->local && effect.columns() == 1 &&
-         effect.order() == 0.0;
-}
-
-bool is_in_the_span(const Eigen::VectorXd& of, const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  constexpr double kAlike = 1e-3;
-  const Eigen::VectorXd from_a = b - b.dot(a) / a.squaredNorm() * a;
-  if (!(from_a.norm() > kAlike * b.norm())) return false;
-  const Eigen::VectorXd left =
-      of - of.dot(a) / a.squaredNorm() * a - of.dot(from_a) / from_a.squaredNorm() * from_a;
-  return left.norm() < kAlike * of.norm();
-}
-
-}  // namespace
-
 /// Two names that together do what a third one does alone: equal slopes of all flanks and one of
 /// the left flanks are opposite slopes.
 void PartLoop::tell_two_names_as_one() {
@@ -219,51 +200,6 @@ void PartLoop::tell_two_names_as_one() {
       if (is_name_of_all_teeth(effects_[a]) && is_name_of_all_teeth(effects_[b]) &&
           effects_[a].shape.empty() && effects_[b].shape.empty() && one_in_place_of(a, b))
         b = a;
-}
-
-/// A slope of one flank beside another slope of either: where the smaller of the two flanks' is no
-/// crumb, both kinds of slope of all flanks, a lean and a taper, are told. That is as many values
-/// and the same sum, and causes that act on all flanks are the usual ones.
-void PartLoop::tell_one_flank_as_two_names_of_all() {
-  constexpr double kCrumb = 0.1;
-  const auto is_plain = [](const Effect& e) { return is_name_of_all_teeth(e) && e.shape.empty(); };
-  std::vector<std::size_t> whole;  // candidates
-  for (std::size_t c = 0; c < candidates_.size(); ++c)
-    if (!unseen_[c] && is_plain(candidates_[c]) && candidates_[c].flank == FlankChoice::kBoth)
-      whole.push_back(c);
-  const auto two_in_place_of = [&](std::size_t a, std::size_t b) {
-    const Eigen::VectorXd of_a = over_a_tooth(geometry_, effects_[a]),
-                          of_b = over_a_tooth(geometry_, effects_[b]);
-    std::vector<Effect> pair;
-    for (const std::size_t c : whole)
-      if (pair.size() < 2 && is_in_the_span(over_a_tooth(geometry_, candidates_[c]), of_a, of_b))
-        pair.push_back(candidates_[c]);
-    if (pair.size() < 2) return;
-    const auto now = fit_of(effects_);
-    const auto amount = [&](std::size_t e) {
-      return now->coefficients()[now->first_column(static_cast<int>(e))];
-    };
-    const Eigen::VectorXd sum = amount(a) * of_a + amount(b) * of_b;
-    const Eigen::Index flank = sum.size() / 2;
-    const auto [small, large] = std::minmax({sum.head(flank).norm(), sum.tail(flank).norm()});
-    if (small < kCrumb * large) return;
-    std::vector<Effect> with = effects_;
-    with[a] = pair[0];
-    with[b] = pair[1];
-    const auto fit = fit_of(with);
-    for (const std::size_t e : {a, b})
-      if (!is_possible(geometry_, *fit, static_cast<int>(e))) return;
-    ChosenGroup record;
-    record.group = -1;
-    record.p_value = std::max(discovery_.chosen[a].p_value, discovery_.chosen[b].p_value);
-    effects_ = std::move(with);
-    discovery_.chosen[a] = discovery_.chosen[b] = record;
-  };
-  for (std::size_t a = first_told_here(); a < effects_.size(); ++a)
-    for (std::size_t b = a + 1; b < effects_.size(); ++b)
-      if (is_plain(effects_[a]) && is_plain(effects_[b]) &&
-          (effects_[a].flank != FlankChoice::kBoth || effects_[b].flank != FlankChoice::kBoth))
-        two_in_place_of(a, b);
 }
 
 /// A bow without a height of its own beside a bow with a name, which has one, are that bow and a
@@ -436,6 +372,7 @@ bool PartLoop::adopt_if_simpler(Options options, int least_spared) {
   PartLoop names(geometry_, std::move(measured), std::move(options));
   names.run();
   if (names.effects_.empty()) return false;
+  names.add_names(values_of(effects_, true) - least_spared);
   names.tell_parts_of_a_form();
   if (std::any_of(names.effects_.begin(), names.effects_.end(),
                   [](const Effect& e) { return e.is_term(); }))

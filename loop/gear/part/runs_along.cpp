@@ -55,6 +55,20 @@ bool moves_the_teeth(const Effect& effect) {
          !effect.needs().several_heights;
 }
 
+bool is_name_of_all_teeth(const Effect& effect) {
+  return effect.family->named && !effect.family->local && effect.columns() == 1 &&
+         effect.order() == 0.0;
+}
+
+bool is_in_the_span(const Eigen::VectorXd& of, const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  constexpr double kAlike = 1e-3;
+  const Eigen::VectorXd from_a = b - b.dot(a) / a.squaredNorm() * a;
+  if (!(from_a.norm() > kAlike * b.norm())) return false;
+  const Eigen::VectorXd left =
+      of - of.dot(a) / a.squaredNorm() * a - of.dot(from_a) / from_a.squaredNorm() * from_a;
+  return left.norm() < kAlike * of.norm();
+}
+
 Eigen::MatrixXd over_a_tooth(const FlankGeometry& geometry, const Effect& effect) {
   constexpr int kOfGrid = 9;
   const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();

@@ -35,4 +35,10 @@ enum class Flanks { kAlike, kOfEither };
 /// level.
 [[nodiscard]] bool run_alike(const FlankGeometry& geometry, const Effect& a, const Effect& b);
 
+/// True for a name of one column that is the same on every tooth.
+[[nodiscard]] bool is_name_of_all_teeth(const Effect& effect);
+/// True where a column over a tooth is a sum of two others that differ.
+[[nodiscard]] bool is_in_the_span(const Eigen::VectorXd& of, const Eigen::VectorXd& a,
+                                  const Eigen::VectorXd& b);
+
 }  // namespace trueflank::loop
