@@ -86,7 +86,12 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
   const auto none = loop.plain_fit()->errors({});
   const auto all = fit.errors(std::vector<bool>(loop.effects().size(), true));
   result.before = {none.rms_um, none.held_out_rms_um, 0.0};
-  result.after = {all.rms_um, all.held_out_rms_um, 0.0};
+  const PointFit::HeldOutBesideLocal held_out = fit.held_out_beside_local();
+  result.after = {all.rms_um, held_out.rms_um, 0.0};
+  if (!held_out.fitted_there.empty())
+    result.notes.push_back(
+        "the error on held-out data is counted beside what held-out values alone show, such as a "
+        "form of one held-out tooth: no other value can foretell it");
   result.not_observable = loop.not_observable();
   result.structure_p_value = loop.discovery().first_p_value;
   result.structure_left_p_value = loop.structure_left_p_value();
@@ -112,12 +117,12 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
     result.verdict = loop.effects().empty() ? Verdict::kNoEffect : Verdict::kExplained;
   if (result.verdict != Verdict::kPartlyExplained && is_more_than_noise(result, noise)) {
     result.verdict = Verdict::kPartlyExplained;
-    const bool held_out = result.held_out > 0;
+    const bool any_held_out = result.held_out > 0;
     result.structure_left = printed(
         "what is left, %.3g um%s, is more than the measurement's own noise of %.3g um: the verdict "
         "rests on that, and no form of it is sure",
-        held_out ? result.after.held_out_rms : result.after.rms, held_out ? " on held-out data" : "",
-        held_out ? noise.held_out_um : noise.um);
+        any_held_out ? result.after.held_out_rms : result.after.rms,
+        any_held_out ? " on held-out data" : "", any_held_out ? noise.held_out_um : noise.um);
   }
   return result;
 }

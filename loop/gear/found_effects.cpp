@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <tuple>
 
 #include "trueflank/base/number_text.h"
@@ -62,6 +63,7 @@ class Describer {
     for (const auto& [terms, place] : unnamed_at)
       finish_unnamed(found_[place], std::get<int>(terms));
     for (std::size_t i = 0; i < found_.size(); ++i) add_figures(found_[i], members_[i]);
+    say_what_is_alike();
     say_what_is_one_form();
     share_what_is_explained();
     return std::move(found_);
@@ -186,16 +188,18 @@ class Describer {
           "a scan in any pose does not say which tooth is the first, nor which end is up; measure "
           "it in the gear's frame (--aligned)";
     }
-    found.sentence = sentence(found, members.front());
+    found.sentence = plain_sentence(found, members.front());
     found.sure = sure_words(found.p_value, found.confounded_with);
   }
 
-  std::string sentence(const FoundEffect& found, int effect) const {
-    std::string text = plain_sentence(found, effect);
-    if (found.orders_alike.empty()) return text;
-    return text + "; the " + std::to_string(traced_teeth(*sources_.table).size()) +
-           " teeth traced would show " + waves_in_words(found.orders_alike) +
-           " alike: the simplest is reported";
+  /// What the teeth that were traced do not tell apart, with the first effect that it is true of.
+  void say_what_is_alike() {
+    std::set<std::vector<int>> said;
+    for (FoundEffect& found : found_)
+      if (!found.orders_alike.empty() && said.insert(found.orders_alike).second)
+        found.sentence += "; the " + std::to_string(traced_teeth(*sources_.table).size()) +
+                          " teeth traced would show " + waves_in_words(found.orders_alike) +
+                          " alike: the simplest is reported";
   }
 
   std::string plain_sentence(const FoundEffect& found, int effect) const {

@@ -7,6 +7,7 @@
 
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/linear_equations.h"
+#include "trueflank/loop/gear/effects/registry.h"
 
 namespace trueflank::loop {
 
@@ -59,7 +60,7 @@ std::vector<int> orders_alike(const FlankGeometry& geometry, const Observations&
       std::any_of(table.rows.begin(), table.rows.end(), [](const Observation& row) {
         return row.kind == ObservationKind::kIndex || row.kind == ObservationKind::kRadial;
       });
-  if (effect.family->local || effect.family->displacement_mm ||
+  if (effect.family->local || gear_effects::is_of_teeth(effect) || effect.family->displacement_mm ||
       effect.family->tells_order_along_profile ||
       (whole_ring && shows_in_an_index(geometry, effect, coefficients)))
     return {};

@@ -217,20 +217,20 @@ class RemainderSearch {
       } else {
         add_course(key, courses, places, found,
                    found.set < 0 ? -1 : all.side_of[static_cast<std::size_t>(found.set)],
-                   scan ? "" : teeth_of(found, courses, all));
+                   scan ? std::set<int>{} : teeth_of(found, courses, all));
       }
     }
   }
 
-  /// "on teeth 27 to 29": where few traces have the waves.
-  static std::string teeth_of(const CourseFinding& found, const Courses& courses,
-                              const CourseSets& all) {
+  /// The teeth, where few traces have the waves.
+  static std::set<int> teeth_of(const CourseFinding& found, const Courses& courses,
+                                const CourseSets& all) {
     if (found.holders.empty()) return {};
     const auto side = static_cast<std::size_t>(all.side_of[static_cast<std::size_t>(found.set)]);
     std::set<int> teeth;
     for (const int course : found.holders)
       teeth.insert(courses.tooth_of[side].at(all.members[side][static_cast<std::size_t>(course)]));
-    return words_of_teeth(teeth);
+    return teeth;
   }
 
   /// Told as a finding.
@@ -268,7 +268,7 @@ class RemainderSearch {
   }
 
   void add_course(const CourseKey& key, const Courses& courses, int places,
-                  const CourseFinding& found, int side, const std::string& on_teeth) {
+                  const CourseFinding& found, int side, const std::set<int>& on_teeth) {
     const double face = key.face ? 1.0 : 0.0;
     const FlankChoice flank = flank_choice(geometry_, side);
     // Of a ring's scan the course runs from root to tip, and its roll falls.
@@ -296,15 +296,21 @@ class RemainderSearch {
                  found.square);
         break;
       default:
-        add_text(
-            found.p_value,
-            printed("waves over the %s, %.3g mm long, %.3g um, %s", key.face ? "face" : "profile",
-                    width, found.amount,
-                    on_teeth.empty() ? "in a phase of its own on every tooth" : on_teeth.c_str()) +
-                (side < 0                      ? ""
-                 : flank == FlankChoice::kLeft ? ", left flanks"
-                                               : ", right flanks"),
-            found.amount);
+        if (on_teeth.size() == 1 && side >= 0) {
+          add_form("unnamed_waviness_of_teeth", flank,
+                   {double(*on_teeth.begin()), 1.0, 0.0, face, width}, found.p_value, found.amount,
+                   true, found.square);
+          break;
+        }
+        add_text(found.p_value,
+                 printed("waves over the %s, %.3g mm long, %.3g um, %s",
+                         key.face ? "face" : "profile", width, found.amount,
+                         on_teeth.empty() ? "in a phase of its own on every tooth"
+                                          : words_of_teeth(on_teeth).c_str()) +
+                     (side < 0                      ? ""
+                      : flank == FlankChoice::kLeft ? ", left flanks"
+                                                    : ", right flanks"),
+                 found.amount);
     }
   }
 

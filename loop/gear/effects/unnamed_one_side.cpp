@@ -53,4 +53,64 @@ EffectFamily unnamed_one_side() {
   return f;
 }
 
+/// Swellings evenly spaced around the gear, or one, that die away from an end of the teeth: corners
+/// that lift from the plate, marks of ejectors or bolts. By the direction in which a place lies.
+/// Told in place of waves around the gear over the face and a foot of all teeth, which follow them
+/// (part_loop_around.cpp), and no candidate of its own.
+EffectFamily unnamed_swellings_at_end() {
+  EffectFamily f = described("unnamed_swellings_at_end",
+                             {"number", "at_deg", "half_deg", "end", "dies_within_mm"});
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    const double apart = kTwoPi / shape[0];
+    const double off = std::remainder(p.polar_rad - rad_from_deg(shape[1]), apart);
+    const double half = rad_from_deg(shape[2]);
+    for (const double next : {-apart, 0.0, apart})
+      c[0] += std::exp(-std::pow((off + next) / half, 2));
+    c[0] *= std::exp(-std::abs(p.z_mm - end_mm(g, 1.0, shape[3])) / shape[4]);
+  };
+  f.needs = [](const EffectShape&) { return NeedsToBeSeen{.several_heights = true}; };
+  f.faces_a_direction = true;
+  f.is_followed_nearly = true;
+  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
+  f.bends_over_the_face = [](const EffectShape&) { return true; };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    constexpr double kLongest = 0.5;  // of the face
+    std::vector<EffectShape> shapes;
+    const double apart_deg = 360.0 / shape[0];
+    for (const double off : {-0.5, -0.15, -0.04, 0.0, 0.04, 0.15, 0.5})
+      for (const double times : {0.8, 0.93, 0.98, 1.0, 1.02, 1.07, 1.25}) {
+        EffectShape beside = shape;
+        beside[1] = std::fmod(shape[1] + off * shape[2] + apart_deg, apart_deg);
+        beside[2] = std::min(times * shape[2], 0.4 * apart_deg);
+        if (beside != shape) shapes.push_back(std::move(beside));
+      }
+    for (const double times : {0.7, 0.85, 0.95, 0.98, 1.02, 1.05, 1.18, 1.43})
+      if (times * shape[4] <= kLongest * g.face_width_mm()) {
+        shapes.push_back(shape);
+        shapes.back()[4] *= times;
+      }
+    return shapes;
+  };
+  f.term_keys = {
+      {"number"}, number("at_deg"), number("half_deg"), {"end"}, number("dies_within_mm")};
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const int sign = told.sign();
+    const char* end = shape[3] < 0.0 ? "lower" : "upper";
+    std::string text = shape[0] == 1.0 ? a_swelling(sign)
+                                       : printed("%.0f ", shape[0]) +
+                                             (sign > 0   ? "swellings"
+                                              : sign < 0 ? "hollows"
+                                                         : "swellings or hollows") +
+                                             " evenly spaced around the gear";
+    return text + printed(
+                      " at the %s end, dying away within %.2g mm of height, %s%.0f deg, "
+                      "%.2g deg to either side, as from corners that warp, ejectors or bolts",
+                      end, shape[4], shape[0] == 1.0 ? "at " : "one at ", shape[1], shape[2]);
+  };
+  return f;
+}
+
 }  // namespace trueflank::loop::gear_effects

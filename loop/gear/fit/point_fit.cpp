@@ -454,6 +454,30 @@ PointFit::Errors PointFit::errors(const std::vector<bool>& with_effect) const {
   return result;
 }
 
+PointFit::HeldOutBesideLocal PointFit::held_out_beside_local() const {
+  constexpr double kHardly = 0.1;
+  HeldOutBesideLocal result;
+  std::vector<int> learnt, there;
+  for (int i = 0; i < nuisance_.count(); ++i) learnt.push_back(i);
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    const int first = first_column_[e], end = first + effects_[e].columns();
+    bool hardly = true;
+    for (int k = first; k < end; ++k) hardly = hardly && !(train_(k, k) > kHardly * all_(k, k));
+    if (hardly) result.fitted_there.push_back(e);
+    for (int k = first; k < end; ++k) (hardly ? there : learnt).push_back(k);
+  }
+  Eigen::VectorXd b = solution(train_, learnt);
+  if (!there.empty()) {
+    Eigen::MatrixXd held = plain_held_;
+    held.col(columns_).head(columns_) -= plain_held_.topLeftCorner(columns_, columns_) * b;
+    b += solution(held, there);
+  }
+  const double square = square_error(plain_held_, b);
+  const double values = held_out_ - static_cast<double>(there.size());
+  if (values > 0.0) result.rms_um = std::sqrt(std::max(0.0, square) / values);
+  return result;
+}
+
 double PointFit::residual_square(const std::vector<bool>& with_effect) const {
   return square_error(all_, solution(all_, columns_with(with_effect)));
 }

@@ -39,6 +39,13 @@ class PointFit {
   /// Errors with some effects left out (and all else refitted): held-out ones from a fit to the
   /// training part, the others from a fit to all.
   [[nodiscard]] Errors errors(const std::vector<bool>& with_effect) const;
+  /// The error on held-out values with all effects, what only held-out values show (a form of one
+  /// held-out tooth) fitted there: what the others leave. And the effects of which that is so.
+  struct HeldOutBesideLocal {
+    double rms_um = kNaN;
+    std::vector<std::size_t> fitted_there;
+  };
+  [[nodiscard]] HeldOutBesideLocal held_out_beside_local() const;
   /// Error [um] with the effects' coefficients given (in the order of columns, the nuisance left
   /// out) and only the nuisance fitted: what a model learnt elsewhere leaves here.
   [[nodiscard]] double rms_with_um(const Eigen::VectorXd& effect_coefficients) const;

@@ -162,6 +162,21 @@ std::vector<Effect> swellings_around(int teeth, FlankChoice flank) {
   return forms;
 }
 
+std::vector<Effect> swellings_at_ends(const FlankGeometry& geometry, int number) {
+  std::vector<Effect> forms;
+  const double apart_deg = 360.0 / number;
+  const double tooth_deg = 360.0 / geometry.teeth();
+  for (double half = std::max(0.5 * tooth_deg, 0.1 * apart_deg); half < 0.35 * apart_deg;
+       half *= 1.8)
+    for (double at = 0.0; at < apart_deg; at += 0.8 * half)
+      for (const double end : {-1.0, 1.0})
+        for (const double within : {0.08, 0.18})
+          forms.push_back({find_family("unnamed_swellings_at_end"),
+                           FlankChoice::kBoth,
+                           {double(number), at, half, end, within * geometry.face_width_mm()}});
+  return forms;
+}
+
 std::vector<Effect> combs_of(int every, FlankChoice flank, double opposite) {
   std::vector<Effect> combs;
   for (int first = 1; first <= every; ++first)

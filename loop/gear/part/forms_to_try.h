@@ -41,6 +41,9 @@ namespace trueflank::loop {
 inline constexpr int kMostSwellings = 8;
 [[nodiscard]] std::vector<Effect> swellings_around(int teeth, FlankChoice flank);
 
+/// The same, or one alone, that die away from an end of the teeth.
+[[nodiscard]] std::vector<Effect> swellings_at_ends(const FlankGeometry& geometry, int number);
+
 /// A course over the flanks of a tooth: degrees over profile and face.
 struct CourseOverFlanks {
   double profile = 0.0, face = 0.0;

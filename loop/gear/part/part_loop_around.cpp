@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <set>
 #include <utility>
 #include <vector>
@@ -192,6 +193,46 @@ bool PartLoop::tell_as_repeating() {
     for (int number = 2; number <= kMostSwellings; ++number)
       if (put_form_for_multiples(around, number, 2, swellings[static_cast<std::size_t>(number)]))
         return true;
+  }
+  return false;
+}
+
+/// Swellings that die away from an end are waves of an order and its multiples over the face, and
+/// what runs over the face of all teeth; one alone, waves of many orders.
+bool PartLoop::tell_as_swellings_at_end() {
+  constexpr std::size_t kFewestOfOne = 3;
+  std::vector<std::size_t> waves, feet;
+  int in_common = 0, lowest = 0;  // orders
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+    const Effect& effect = effects_[e];
+    if (effect.flank != FlankChoice::kBoth || effect.family->local ||
+        effect.needs().along_profile || (effect.family->displacement_mm && effect.order() == 0.0))
+      continue;
+    if (const int order = static_cast<int>(effect.order()); order > 0) {
+      waves.push_back(e);
+      in_common = std::gcd(in_common, order);
+      if (effect.needs().along_face && effect.columns() == 2)
+        lowest = lowest == 0 ? order : std::min(lowest, order);
+    } else if (const Runs runs = runs_of(geometry_, effect);
+               (runs == Runs::kOverFace || runs == Runs::kNowhere) &&
+               (!effect.family->named || effect.family->shape_is_continuous)) {
+      feet.push_back(e);
+    }
+  }
+  if (lowest == 0) return false;
+  for (const int number : std::set<int>{in_common, lowest}) {
+    if (number > kMostSwellings) continue;
+    std::vector<std::size_t> these;
+    for (const std::size_t e : waves)
+      if (std::remainder(effects_[e].order(), double(number)) == 0.0) these.push_back(e);
+    if (number == 1 && these.size() < kFewestOfOne) continue;
+    std::vector<std::size_t> all = these;
+    all.insert(all.end(), feet.begin(), feet.end());
+    std::sort(all.begin(), all.end());
+    if (all.size() < 2) continue;
+    const std::vector<Effect> forms = swellings_at_ends(geometry_, number);
+    if (put_one_form_for(all, forms) || (!feet.empty() && put_one_form_for(these, forms)))
+      return true;
   }
   return false;
 }

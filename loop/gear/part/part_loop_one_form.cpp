@@ -401,9 +401,10 @@ void PartLoop::tell_as_one_form() {
     return put_one_form_for(set, waves) || put_one_form_for(set, waves, {slope_over(face, flank)});
   };
   const auto once = [&] {
-    if (tell_as_sector() || tell_as_drift() || tell_as_drift_aside() || tell_as_repeating() ||
-        tell_as_field() || tell_as_facing() || tell_as_product() || tell_as_corner() ||
-        tell_as_dish_of_all_flanks() || tell_as_alternating_wave())
+    if (tell_as_sector() || tell_as_drift() || tell_as_drift_aside() ||
+        tell_as_swellings_at_end() || tell_as_repeating() || tell_as_field() || tell_as_facing() ||
+        tell_as_product() || tell_as_corner() || tell_as_dish_of_all_flanks() ||
+        tell_as_alternating_wave())
       return true;
     for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
       std::array<std::vector<std::size_t>, 2> along;  // profile, face
