@@ -31,7 +31,7 @@ EffectFamily unnamed_facing() {
   f.words = [](const ToldForm& told) {
     return "the flanks stand out and lie back by the direction that they face, " +
            times_per_turn(told.shape[0]) + first_at(told.direction_rad(), told.shape[0]) +
-           ", as from a kerf, a light or the play of an axis that differs along x and y";
+           ", as from a kerf, a light, a probe or the play of an axis that differs by direction";
   };
   return f;
 }

@@ -415,8 +415,8 @@ std::string marching(const EffectShape& shape) {
   const double face = std::abs(shape[1]) >= std::abs(shape[0]) ? 1.0 : 0.0;
   const double waves = face != 0.0 ? shape[1] : shape[0];
   return ", that march from tooth to tooth: " +
-         (periods == 1.0 ? std::string("one period") : printed("%g periods", periods)) + " a turn" +
-         (waves == 0.0 ? "" : "," + towards(face, waves * shape[2] < 0.0 ? 1.0 : -1.0));
+         (periods == 1.0 ? std::string("one period") : printed("%.3g periods", periods)) +
+         " a turn" + (waves == 0.0 ? "" : "," + towards(face, waves * shape[2] < 0.0 ? 1.0 : -1.0));
 }
 
 }  // namespace
@@ -479,6 +479,58 @@ EffectFamily unnamed_marks() {
     const EffectShape& shape = told.shape;
     return waves_across(told.geometry, shape[0], shape[1]) +
            (shape[2] == 0.0 ? ", the same on every tooth" : marching(shape));
+  };
+  return f;
+}
+
+/// Waves as unnamed_marks has them, of no whole number of periods a turn: they begin at a tooth.
+/// Told in place of waves of whole orders that follow them (part_loop_waves.cpp), and no candidate
+/// of its own.
+EffectFamily unnamed_walking_waves() {
+  EffectFamily f = described("unnamed_walking_waves",
+                             {"waves_over_profile", "waves_over_face", "order", "from_tooth"});
+  f.columns = [](const EffectShape&) { return 2; };
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    const bool flank = p.surface == Surface::kFlank;
+    const double angle = kPi * (shape[0] * (g.profile_coordinate(p.roll_mm) + 1.0) +
+                                shape[1] * (g.face_coordinate(p.z_mm) + 1.0)) +
+                         kTwoPi * shape[2] * teeth_since(g, p.tooth, shape[3]) / g.teeth();
+    c[0] = flank ? std::cos(angle) : 0.0;
+    c[1] = flank ? std::sin(angle) : 0.0;
+  };
+  f.needs = [](const EffectShape& shape) {
+    return NeedsToBeSeen{.along_profile = shape[0] != 0.0, .along_face = shape[1] != 0.0};
+  };
+  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes;
+    const auto add = [&](std::size_t k, double off) {
+      shapes.push_back(shape);
+      shapes.back()[k] += off;
+    };
+    for (const double off : {0.1, 0.03, 0.01})
+      for (const double sign : {-1.0, 1.0}) {
+        add(0, sign * off);
+        if (shape[1] != 0.0) add(1, sign * off);
+        add(2, sign * off);
+      }
+    const int z = g.teeth();
+    for (const int off : {-4, -2, -1, 1, 2, 4}) {
+      shapes.push_back(shape);
+      shapes.back()[3] = (static_cast<int>(shape[3]) - 1 + off + z) % z + 1;
+    }
+    return shapes;
+  };
+  f.term_keys = {
+      number("waves_over_profile"), number("waves_over_face"), number("order"), {"from_tooth"}};
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    return waves_across(told.geometry, shape[0], shape[1]) +
+           marching({shape[0], shape[1], shape[2]}) +
+           printed(
+               ", no whole number: they begin anew at tooth %.0f, as from a vibration that keeps "
+               "no step with the turn",
+               shape[3]);
   };
   return f;
 }

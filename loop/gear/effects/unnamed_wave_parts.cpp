@@ -107,6 +107,57 @@ EffectFamily unnamed_waves_dying() {
   return f;
 }
 
+/// Nothing at one end, and evenly more towards the other.
+EffectFamily unnamed_waves_growing() {
+  EffectFamily f = waves_of_size(
+      "unnamed_waves_growing", {"along", "wavelength_mm", "towards"},
+      [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
+        const double to = end_mm(g, shape[0], shape[2]), from = end_mm(g, shape[0], -shape[2]);
+        return (along(shape[0], p) - from) / (to - from);
+      });
+  f.term_keys = {kAlong, number("wavelength_mm"), {"towards"}};
+  f.nearby = [](const FlankGeometry&, const EffectShape& shape) { return lengths_beside(shape); };
+  f.words = [](const ToldForm& told) {
+    return waves(told) + ", that grow evenly" + towards(told.shape[0], told.shape[2]);
+  };
+  return f;
+}
+
+/// Ever shorter towards one end: the waves in a mm change evenly, by a share of those in the middle
+/// to either side.
+EffectFamily unnamed_waves_changing() {
+  EffectFamily f = described("unnamed_waves_changing", {"along", "wavelength_mm", "change"});
+  f.columns = [](const EffectShape&) { return 2; };
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    const double low = end_mm(g, shape[0], kLow), range = end_mm(g, shape[0], kHigh) - low;
+    const double share = (along(shape[0], p) - low) / range;
+    const double angle = kTwoPi * range / shape[1] * (share + shape[2] * (share * share - share));
+    const bool flank = p.surface == Surface::kFlank;
+    c[0] = flank ? std::cos(angle) : 0.0;
+    c[1] = flank ? std::sin(angle) : 0.0;
+  };
+  f.same_on_every_tooth = [](const EffectShape&) { return true; };
+  f.needs = needs_of_direction;
+  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
+  f.term_keys = {kAlong, number("wavelength_mm"), number("change")};
+  f.nearby = [](const FlankGeometry&, const EffectShape& shape) {
+    constexpr double kMost = 0.8;
+    std::vector<EffectShape> shapes = lengths_beside(shape);
+    for (const double off : {-0.1, -0.03, -0.01, 0.01, 0.03, 0.1})
+      if (std::abs(shape[2] + off) < kMost) shapes.push_back({shape[0], shape[1], shape[2] + off});
+    return shapes;
+  };
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    return "the same on every tooth, waves " + over(shape[0]) +
+           printed(" that change their length, %.3g mm at the ", shape[1] / (1.0 - shape[2])) +
+           (shape[0] != 0.0 ? "lower end" : "root") +
+           printed(", %.3g mm at the ", shape[1] / (1.0 + shape[2])) +
+           (shape[0] != 0.0 ? "upper one" : "tip") + (shape[0] != 0.0 ? "" : " (of roll length)");
+  };
+  return f;
+}
+
 std::vector<Effect> parts_of_waves(const FlankGeometry& geometry, double face, FlankChoice flank,
                                    double wavelength_mm) {
   constexpr double kComeUp = 0.3;  // of a wave
@@ -126,7 +177,13 @@ std::vector<Effect> parts_of_waves(const FlankGeometry& geometry, double face, F
         parts.push_back({find_family("unnamed_waves_dying"),
                          flank,
                          {face, times * wavelength_mm, within * std::abs(range), end}});
+      parts.push_back(
+          {find_family("unnamed_waves_growing"), flank, {face, times * wavelength_mm, end}});
     }
+  for (const double times : {0.75, 0.85, 0.93, 1.0, 1.08, 1.18, 1.33})
+    for (const double change : {-0.5, -0.35, -0.2, -0.1, 0.1, 0.2, 0.35, 0.5})
+      parts.push_back(
+          {find_family("unnamed_waves_changing"), flank, {face, times * wavelength_mm, change}});
   return parts;
 }
 

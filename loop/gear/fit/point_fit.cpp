@@ -430,16 +430,22 @@ double square_error(const Eigen::MatrixXd& gram, const Eigen::VectorXd& b) {
 }
 }  // namespace
 
-/// Of these columns, those that the training data can tell: a tooth that is held out is in them by
-/// its share of a size alone.
-std::vector<int> PointFit::learnt(std::vector<int> columns) const {
+/// True where the training data can hardly tell any of an effect's columns: a tooth that is held
+/// out is in them by its share of a size alone.
+bool PointFit::is_hardly_learnt(std::size_t effect) const {
   constexpr double kHardly = 0.1;
+  const int first = first_column_[effect], end = first + effects_[effect].columns();
+  for (int k = first; k < end; ++k)
+    if (train_(k, k) > kHardly * all_(k, k)) return false;
+  return true;
+}
+
+/// Of these columns, those that the training data can tell.
+std::vector<int> PointFit::learnt(std::vector<int> columns) const {
   for (std::size_t e = 0; e < effects_.size(); ++e) {
-    if (!effects_[e].family->local) continue;
+    if (!is_hardly_learnt(e)) continue;
     const int first = first_column_[e], end = first + effects_[e].columns();
-    std::erase_if(columns, [&](int k) {
-      return k >= first && k < end && !(train_(k, k) > kHardly * all_(k, k));
-    });
+    std::erase_if(columns, [&](int k) { return k >= first && k < end; });
   }
   return columns;
 }
@@ -455,16 +461,14 @@ PointFit::Errors PointFit::errors(const std::vector<bool>& with_effect) const {
 }
 
 PointFit::HeldOutBesideLocal PointFit::held_out_beside_local() const {
-  constexpr double kHardly = 0.1;
   HeldOutBesideLocal result;
   std::vector<int> learnt, there;
   for (int i = 0; i < nuisance_.count(); ++i) learnt.push_back(i);
   for (std::size_t e = 0; e < effects_.size(); ++e) {
-    const int first = first_column_[e], end = first + effects_[e].columns();
-    bool hardly = true;
-    for (int k = first; k < end; ++k) hardly = hardly && !(train_(k, k) > kHardly * all_(k, k));
+    const bool hardly = is_hardly_learnt(e);
     if (hardly) result.fitted_there.push_back(e);
-    for (int k = first; k < end; ++k) (hardly ? there : learnt).push_back(k);
+    for (int k = 0; k < effects_[e].columns(); ++k)
+      (hardly ? there : learnt).push_back(first_column_[e] + k);
   }
   Eigen::VectorXd b = solution(train_, learnt);
   if (!there.empty()) {

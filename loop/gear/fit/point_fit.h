@@ -105,6 +105,7 @@ class PointFit {
   [[nodiscard]] Eigen::VectorXd solution(const Eigen::MatrixXd& gram,
                                          const std::vector<int>& columns) const;
   [[nodiscard]] std::vector<int> columns_with(const std::vector<bool>& with_effect) const;
+  [[nodiscard]] bool is_hardly_learnt(std::size_t effect) const;
   [[nodiscard]] std::vector<int> learnt(std::vector<int> columns) const;
 
   const FlankGeometry& geometry_;

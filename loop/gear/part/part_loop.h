@@ -181,6 +181,7 @@ class PartLoop {
   [[nodiscard]] bool put_dish_for(const std::vector<std::size_t>& these, FlankChoice flank);
   [[nodiscard]] bool tell_as_field();
   [[nodiscard]] bool tell_as_facing();
+  [[nodiscard]] bool tell_as_walking_waves();
   [[nodiscard]] bool tell_as_swellings_at_end();
   [[nodiscard]] bool tell_as_alternating_wave();
   [[nodiscard]] bool tell_as_drift_aside();

@@ -18,10 +18,9 @@ namespace trueflank::loop {
 
 namespace {
 
-/// True where effects are larger, each by itself, than they are together.
-bool undo_each_other(const FlankGeometry& geometry, const PointFit& fit,
-                     const std::vector<std::size_t>& these) {
-  constexpr double kUndo = 1.5;
+/// By how much effects are larger, each by itself, than they are together: squares.
+double undo_each_other(const FlankGeometry& geometry, const PointFit& fit,
+                       const std::vector<std::size_t>& these) {
   Eigen::VectorXd sum;
   double squares = 0.0;
   for (const std::size_t e : these) {
@@ -35,7 +34,7 @@ bool undo_each_other(const FlankGeometry& geometry, const PointFit& fit,
     squares += own.squaredNorm();
     sum = sum.size() == 0 ? own : Eigen::VectorXd(sum + own);
   }
-  return squares > kUndo * sum.squaredNorm();
+  return squares / sum.squaredNorm();
 }
 
 /// Cells in which forms like the last of these are tried in scans: small over what they run along.
@@ -111,7 +110,8 @@ std::vector<Effect> PartLoop::one_form_for(const std::vector<std::size_t>& these
                                            const std::vector<Effect>& beside,
                                            int more_values) const {
   constexpr double kClearly = 9.0, kValue = 6.0;  // chi-square
-  constexpr double kNearly = 0.003;               // of what they take out
+  constexpr double kNearly = 0.003, kMoreOrLess = 0.01;  // of what they take out
+  constexpr double kUndo = 1.5, kMostly = 2.5;
   std::vector<Effect> others, own;
   for (std::size_t e = 0; e < effects_.size(); ++e)
     (std::find(these.begin(), these.end(), e) == these.end() ? others : own).push_back(effects_[e]);
@@ -143,12 +143,13 @@ std::vector<Effect> PartLoop::one_form_for(const std::vector<std::size_t>& these
   if (spared < -more_values) return {};
   const double gain = now - fit_of(with)->residual_square();
   // Names that undo each other most of the way are no two causes.
-  const bool doubtful = spared >= 0 && (undo_each_other(geometry_, *fit_of(effects_), these) ||
-                                        with.back().family->is_followed_nearly);
+  const double undo = undo_each_other(geometry_, *fit_of(effects_), these);
+  const bool doubtful = spared >= 0 && (undo > kUndo || with.back().family->is_followed_nearly);
   // (where the noise is taken for more than it is, chi-square says little)
   constexpr double kMostLost = 0.1;
   if (with.back().family->is_followed_nearly && -gain > kMostLost * none) return {};
-  const double doubt = doubtful ? std::max(kClearly, kNearly * none) : 0.0;
+  const double nearly = undo > kMostly ? kMoreOrLess : kNearly;
+  const double doubt = doubtful ? std::max(kClearly, nearly * none) : 0.0;
   // A bow with a name that needs a form beside it to follow what rises at both ends is less sure
   // itself.
   const Effect& one = with.back();
@@ -404,7 +405,7 @@ void PartLoop::tell_as_one_form() {
     if (tell_as_sector() || tell_as_drift() || tell_as_drift_aside() ||
         tell_as_swellings_at_end() || tell_as_repeating() || tell_as_field() || tell_as_facing() ||
         tell_as_product() || tell_as_corner() || tell_as_dish_of_all_flanks() ||
-        tell_as_alternating_wave())
+        tell_as_alternating_wave() || tell_as_walking_waves())
       return true;
     for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
       std::array<std::vector<std::size_t>, 2> along;  // profile, face

@@ -3,16 +3,58 @@
 // bend them, are told as these. Waves around the gear that one odd form is made of.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include "trueflank/base/units.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/part/runs_along.h"
+#include "trueflank/loop/gear/remainder_around.h"
 
 namespace trueflank::loop {
+namespace {
+
+/// A wave of two columns over the flanks of one side: how many waves from root to tip, from the
+/// lower end to the upper one, and how many a turn its phase goes on from tooth to tooth.
+struct WaveAcross {
+  std::size_t effect = 0;
+  double profile = 0.0, face = 0.0, order = 0.0;
+  double size_um = 0.0;
+
+  [[nodiscard]] WaveAcross reversed() const { return {effect, -profile, -face, -order, size_um}; }
+};
+
+WaveAcross wave_across(const FlankGeometry& geometry, const Effect& effect, int side) {
+  constexpr int kSteps = 512;
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  const auto phase = [&](int tooth, double u, double v) {
+    double c[2];
+    effect.evaluate(
+        geometry,
+        geometry.on_flank(tooth, side, low + u * (high - low), v * geometry.face_width_mm()), c);
+    return std::atan2(c[1], c[0]);
+  };
+  const auto waves_along = [&](double profile, double face) {
+    double turned = 0.0, before = phase(1, 0.0, 0.0);
+    for (int i = 1; i <= kSteps; ++i) {
+      const double share = static_cast<double>(i) / kSteps;
+      const double now = phase(1, profile * share, face * share);
+      turned += std::remainder(now - before, kTwoPi);
+      before = now;
+    }
+    return turned / kTwoPi;
+  };
+  return {.profile = waves_along(1.0, 0.0),
+          .face = waves_along(0.0, 1.0),
+          .order = std::remainder(phase(2, 0.0, 0.0) - phase(1, 0.0, 0.0), kTwoPi) / kTwoPi *
+                   geometry.teeth()};
+}
+
+}  // namespace
 
 /// The length of the largest wave without a name among some effects; empty: there is none.
 std::optional<double> PartLoop::largest_wavelength_mm(const std::vector<std::size_t>& of) const {
@@ -38,10 +80,26 @@ bool PartLoop::tell_as_part_of_a_wave(const std::vector<std::size_t>& all, int f
   }
   const std::optional<double> wavelength_mm = largest_wavelength_mm(forms);
   if (!wavelength_mm) return false;
-  const std::vector<Effect> parts =
-      gear_effects::parts_of_waves(geometry_, face, flank, *wavelength_mm);
-  return (forms.size() > 1 && put_one_form_for(forms, parts)) ||
-         (bent.size() > 1 && bent.size() < forms.size() && put_one_form_for(bent, parts));
+  std::map<const EffectFamily*, std::vector<Effect>> parts;
+  for (Effect& part : gear_effects::parts_of_waves(geometry_, face, flank, *wavelength_mm))
+    parts[part.family].push_back(std::move(part));
+  // Which kind of waves fits best is seen when each is moved to where it fits best.
+  const auto best_part_for = [&](const std::vector<std::size_t>& these) {
+    std::vector<Effect> best;
+    double least = kNaN;
+    for (const auto& [family, forms_of_it] : parts) {
+      std::vector<Effect> with = one_form_for(these, forms_of_it, {}, 0);
+      if (with.empty()) continue;
+      const double left = fit_of(with)->residual_square();
+      if (left >= least) continue;
+      least = left;
+      best = std::move(with);
+    }
+    if (!best.empty()) put_in_place_of(these, best);
+    return !best.empty();
+  };
+  return (forms.size() > 1 && best_part_for(forms)) ||
+         (bent.size() > 1 && bent.size() < forms.size() && best_part_for(bent));
 }
 
 /// The part of a wave that is most of what runs along one direction, beside a slope and what does
@@ -124,6 +182,58 @@ void PartLoop::tell_waves_of_a_form() {
     if (!harmonics && orders.size() >= (drifts ? kFewest - 1 : kFewest))
       effects_[wave.effect].family = form;
   }
+}
+
+/// Waves of one side, about alike over the flank, of orders beside each other are one whose periods
+/// a turn are no whole number.
+bool PartLoop::tell_as_walking_waves() {
+  constexpr double kAlike = 0.8;                           // waves
+  constexpr int kFewestTeeth = 8, kSeams = 16, kMore = 3;  // kMore: values
+  const int z = geometry_.teeth();
+  if (z < kFewestTeeth) return false;
+  for (const int side : {1, -1}) {
+    const FlankChoice flank = flank_choice(geometry_, side > 0 ? 1 : 0);
+    std::vector<WaveAcross> waves;
+    for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+      const Effect& effect = effects_[e];
+      if (effect.flank != flank || effect.columns() != 2 || effect.family->local ||
+          !(effect.family->tells_order_along_profile ||
+            effect.family == find_family("unnamed_marks") ||
+            effect.family == find_family("unnamed_waviness")))
+        continue;
+      waves.push_back(wave_across(geometry_, effect, side));
+      waves.back().effect = e;
+      waves.back().size_um = fit_of(effects_)->effect_size_um(static_cast<int>(e));
+    }
+    if (waves.size() < 2) continue;
+    const WaveAcross most = *std::max_element(
+        waves.begin(), waves.end(),
+        [](const WaveAcross& a, const WaveAcross& b) { return a.size_um < b.size_um; });
+    std::vector<std::size_t> these;
+    bool beside = false;
+    for (const WaveAcross& own : waves)
+      for (const WaveAcross& wave : {own, own.reversed()}) {
+        if (std::abs(wave.profile - most.profile) > kAlike ||
+            std::abs(wave.face - most.face) > kAlike)
+          continue;
+        these.push_back(wave.effect);
+        beside = beside || (wave.effect != most.effect &&
+                            std::abs(std::remainder(wave.order - most.order, z)) < 1.5);
+      }
+    if (!beside) continue;
+    these.erase(std::unique(these.begin(), these.end()), these.end());
+    std::vector<Effect> forms;
+    const double seam = std::max(1.0, static_cast<double>(z) / kSeams);
+    for (const double off : {-0.8, -0.6, -0.4, -0.2, 0.2, 0.4, 0.6, 0.8})
+      for (const double profile : {-0.15, 0.0, 0.15})
+        for (double from = 1.0; from < z + 1.0; from += seam)
+          forms.push_back({find_family("unnamed_walking_waves"),
+                           flank,
+                           {most.profile == 0.0 ? 0.0 : most.profile + profile, most.face,
+                            most.order + off, std::floor(from)}});
+    if (put_one_form_for(these, forms, {}, kMore)) return true;
+  }
+  return false;
 }
 
 }  // namespace trueflank::loop
