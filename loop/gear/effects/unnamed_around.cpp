@@ -24,7 +24,11 @@ double in_sector(const FlankGeometry& g, int tooth, const EffectShape& shape) {
 
 /// A course of a degree without a height of its own.
 double course_of_degree(double degree, double x) {
-  return degree == 0.0 ? 1.0 : degree == 2.0 ? x * x - 1.0 / 3.0 : std::pow(x, degree);
+  // (most of what is tried is constant, straight or bowed, and powers take long)
+  return degree == 0.0   ? 1.0
+         : degree == 1.0 ? x
+         : degree == 2.0 ? x * x - 1.0 / 3.0
+                         : std::pow(x, degree);
 }
 /// Degrees over profile and face and the flanks, from the k-th shape value on.
 double form_of_tooth(const FlankGeometry& g, const Place& p, const EffectShape& shape,
@@ -42,7 +46,8 @@ EffectFamily unnamed_sector() {
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = 0.0;
     if (p.surface != Surface::kFlank) return;
-    c[0] = in_sector(g, p.tooth, shape) * form_of_tooth(g, p, shape, 2);
+    const double in = in_sector(g, p.tooth, shape);
+    c[0] = in != 0.0 ? in * form_of_tooth(g, p, shape, 2) : 0.0;
   };
   f.term_keys = {{"first_tooth"}, {"teeth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
