@@ -63,11 +63,14 @@ EffectFamily unnamed_swellings_at_end() {
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = 0.0;
     if (p.surface != Surface::kFlank) return;
-    const double apart = kTwoPi / shape[0];
-    const double off = std::remainder(p.polar_rad - rad_from_deg(shape[1]), apart);
-    const double half = rad_from_deg(shape[2]);
+    constexpr double kNothing = 6.0;  // half widths
+    const double apart = kTwoPi / shape[0], half = rad_from_deg(shape[2]);
+    const double from = p.polar_rad - rad_from_deg(shape[1]);
+    const double off = from - apart * std::round(from / apart);
     for (const double next : {-apart, 0.0, apart})
-      c[0] += std::exp(-std::pow((off + next) / half, 2));
+      if (const double times = (off + next) / half; std::abs(times) < kNothing)
+        c[0] += std::exp(-times * times);
+    if (c[0] == 0.0) return;
     c[0] *= std::exp(-std::abs(p.z_mm - end_mm(g, 1.0, shape[3])) / shape[4]);
   };
   f.needs = [](const EffectShape&) { return NeedsToBeSeen{.several_heights = true}; };
