@@ -25,6 +25,7 @@
 #include "trueflank/loop/gear/local/remainder_courses.h"
 #include "trueflank/loop/gear/local/rotation_waves.h"
 #include "trueflank/loop/gear/local/rough_flanks.h"
+#include "trueflank/loop/gear/paired_sums.h"
 #include "trueflank/loop/gear/remainder_around.h"
 #include "trueflank/loop/gear/remainder_values.h"
 
@@ -233,6 +234,15 @@ class RemainderSearch {
     return teeth;
   }
 
+  /// Standard deviation of what a tooth's trace has.
+  static double spread_of_trace(const Courses& courses, int side, int tooth) {
+    PairedSums sums;
+    for (const auto& [number, samples] : courses.of_flank[static_cast<std::size_t>(side)])
+      if (courses.tooth_of[static_cast<std::size_t>(side)].at(number) == tooth)
+        for (const RemainderSample& sample : samples) sums.add(sample.at, sample.um);
+    return std::sqrt(sums.square_of_y() / std::max(1.0, sums.n));
+  }
+
   /// Told as a finding.
   RoughFlanks rough_flanks_of(const CourseKey& key, const Courses& courses) {
     ++looks_;
@@ -276,6 +286,7 @@ class RemainderSearch {
     const double at = place_mm(key.face, std::clamp(courses.place(found.at, places), low, high));
     const double width = std::abs(courses.length(found.width, places));
     using Kind = CourseFinding::Kind;
+    constexpr double kMostOfATrace = 1.0;  // amplitude: half of the squares
     switch (found.kind) {
       case Kind::kStep:
         add_form("unnamed_step", flank, {face, at, found.set < -1 ? 1.0 : 0.0}, found.p_value,
@@ -296,7 +307,8 @@ class RemainderSearch {
                  found.square);
         break;
       default:
-        if (on_teeth.size() == 1 && side >= 0) {
+        if (on_teeth.size() == 1 && side >= 0 &&
+            found.amount > kMostOfATrace * spread_of_trace(courses, side, *on_teeth.begin())) {
           add_form("unnamed_waviness_of_teeth", flank,
                    {double(*on_teeth.begin()), 1.0, 0.0, face, width}, found.p_value, found.amount,
                    true, found.square);
