@@ -390,7 +390,20 @@ EffectFamily unnamed_drift_of_some() {
            form_of_tooth(g, p, shape, 2);
   };
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
-    return sectors_beside(g, shape, 2);
+    constexpr double kFewest = 3.0;
+    std::vector<EffectShape> shapes;
+    // Teeth more at its first and at its last: where it jumps it moves by one.
+    const auto add = [&](double first, double last) {
+      EffectShape beside = shape;
+      move_tooth(g, -first, beside[0]);
+      beside[1] += first + last;
+      if (beside[1] >= kFewest && beside[1] < g.teeth()) shapes.push_back(std::move(beside));
+    };
+    const bool falls = shape[5] != 0.0;
+    for (const double jump : {-1.0, 0.0, 1.0})
+      for (const double off : {-6.0, -4.0, -2.0, -1.0, 0.0, 1.0, 2.0, 4.0, 6.0})
+        if (jump != 0.0 || off != 0.0) add(falls ? jump : off, falls ? off : jump);
+    return shapes;
   };
   f.term_keys = {{"first_tooth"}, {"teeth"}, {"profile_degree"},
                  {"face_degree"}, kFlanks,   {"course", TermKey::Kind::kWord, {"rises", "falls"}}};

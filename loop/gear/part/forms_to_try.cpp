@@ -207,6 +207,8 @@ void add_of_some_teeth(int z, const CourseOverFlanks& course, FlankChoice flank,
                        std::vector<std::vector<Effect>>& sets) {
   const auto [u, v] = course;
   std::vector<Effect> drifts, waves, stairs;
+  const bool heights = u == 0.0 && v == 0.0;
+  if (heights && flank != FlankChoice::kBoth) return;
   // (where a drift jumps counts, not where it begins or ends)
   for (const int count : counts_between(std::max(4, z / 6), 17 * z / 20))
     for (int jump = 1; jump <= z; ++jump)
@@ -217,15 +219,15 @@ void add_of_some_teeth(int z, const CourseOverFlanks& course, FlankChoice flank,
                           {double(first), double(count), u, v, opposite, falls}});
       }
   sets.push_back(std::move(drifts));
-  if (flank != FlankChoice::kBoth || u != 0.0 || v != 0.0) return;
+  if (!heights) return;
   // Waves of two periods and more, of three teeth and more each.
-  constexpr int kFewestTeeth = 8, kMostPlaces = 14;
+  constexpr int kFewestTeeth = 8, kMostPlaces = 12, kMostPeriods = 16;
   for (const double share : {0.3, 0.5, 0.7})
-    for (int periods = static_cast<int>(std::ceil(1.5 / share)); 3 * periods <= z && periods < 20;
-         ++periods) {
+    for (int periods = static_cast<int>(std::ceil(1.5 / share));
+         3 * periods <= z && periods <= kMostPeriods; ++periods) {
       const int count = static_cast<int>(share * z);
       if (count < kFewestTeeth) continue;
-      for (int first = 1; first <= z; first += std::max(1, z / 12))
+      for (int first = 1; first <= z; first += std::max(1, count / 4))
         waves.push_back({find_family("unnamed_wave_of_some"),
                          flank,
                          {double(first), double(count), double(periods), opposite}});
@@ -258,7 +260,7 @@ void add_beginning(int z, const CourseOverFlanks& course, FlankChoice flank, dou
                               flank,
                               {double(first), u, v, opposite, grows, share * z}});
     if (flank == FlankChoice::kBoth && u == 0.0 && v == 0.0)
-      for (const double periods : {0.5, 0.75, 1.25, 1.5, 1.75, 2.25, 2.5, 2.75, 3.25, 3.5, 3.75})
+      for (const double periods : {0.5, 0.75, 1.25, 1.5, 1.75, 2.25, 2.5, 2.75, 3.5})
         broken_waves.push_back(
             {find_family("unnamed_broken_wave"), flank, {periods, double(first), opposite}});
   }
