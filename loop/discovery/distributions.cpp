@@ -2,7 +2,9 @@
 #include "trueflank/loop/discovery/distributions.h"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/special_functions/beta.hpp>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <functional>
 
@@ -77,6 +79,40 @@ double gap_beyond_tail_p_value(double largest, std::vector<double> others) {
   const auto gaps = static_cast<double>(count - 1);
   if (!(largest > others.front())) return 1.0;
   return sum > 0.0 ? f_tail((largest - others.front()) * gaps / sum, 2.0, 2.0 * gaps) : 0.0;
+}
+
+double beyond_tails_alike_p_value(double size, const std::vector<double>& others) {
+  // Density exp(-(|x| / scale)^power): 1 is Laplace's, 2 the normal one.
+  struct Tail {
+    double power, usual;
+  };
+  constexpr std::array kTails{Tail{0.5, 0.3}, Tail{0.7, 0.3}, Tail{1.0, 0.6},
+                              Tail{1.3, 1.0}, Tail{1.6, 2.0}, Tail{2.0, 6.0}};
+  constexpr std::size_t kFewest = 4;
+  const auto log_gamma = [](double x) { return boost::math::lgamma(x, Quiet()); };
+  std::vector<double> logs;
+  for (const double other : others)
+    if (other > 0.0) logs.push_back(std::log(other));
+  if (logs.size() < kFewest || !(size > 0.0)) return 1.0;
+  const auto n = static_cast<double>(logs.size());
+  std::array<double, kTails.size()> likely{}, chance{};
+  for (std::size_t k = 0; k < kTails.size(); ++k) {
+    const double power = kTails[k].power;
+    // (in sizes of this one, so that no power overflows)
+    double sum = 0.0;
+    for (const double log : logs) sum += std::exp(power * (log - std::log(size)));
+    likely[k] = (n - 1.0) * std::log(power) - n * log_gamma(1.0 / power) + log_gamma(n / power) -
+                n / power * (std::log(sum) + power * std::log(size)) + std::log(kTails[k].usual);
+    chance[k] = f_tail(n / sum, 2.0 / power, 2.0 * n / power);
+  }
+  const double most = *std::max_element(likely.begin(), likely.end());
+  double total = 0.0, beyond = 0.0;
+  for (std::size_t k = 0; k < kTails.size(); ++k) {
+    const double weight = std::exp(likely[k] - most);
+    total += weight;
+    beyond += weight * chance[k];
+  }
+  return beyond / total;
 }
 
 }  // namespace trueflank::loop

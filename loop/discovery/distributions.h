@@ -24,5 +24,10 @@ namespace trueflank::loop {
 /// exponential once each is multiplied by its rank (Renyi). No assumption of how wide or how normal errors are.
 /// Requires: at least 4 others; with fewer it says 1.
 [[nodiscard]] double gap_beyond_tail_p_value(double largest, std::vector<double> others);
+/// How likely one value more is as far out by chance, where the others tell how long their tails
+/// are: over generalised normal distributions, from tails longer than exponential ones to normal
+/// ones, each weighed by how likely it makes the others and by how usual it is. Scale unknown;
+/// sizes about zero. Requires: at least 4 others above zero; with fewer it says 1.
+[[nodiscard]] double beyond_tails_alike_p_value(double size, const std::vector<double>& others);
 
 }  // namespace trueflank::loop

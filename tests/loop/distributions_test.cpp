@@ -154,6 +154,34 @@ TEST(Distributions, OneSizeFarBeyondTheOthersIsNone) {
   EXPECT_EQ(gap_beyond_tail_p_value(15.0, {1.0, 2.0, 3.0}), 1.0);  // too few to say
 }
 
+// Of the sizes of normal values the next one's tail is nearly normal, of exponential ones
+// exponential.
+TEST(Distributions, TailsOfTheOthersSayHowFarOneMoreMayReach) {
+  std::vector<double> normal, exponential;
+  constexpr int kCount = 200;
+  for (int i = 0; i < kCount; ++i) {
+    const double share = (i + 0.5) / kCount;
+    exponential.push_back(-std::log(1.0 - share));
+    double low = 0.0, high = 10.0;  // the size that so many normal values stay below
+    for (int step = 0; step < 60; ++step) {
+      const double middle = 0.5 * (low + high);
+      (1.0 - normal_two_sided(middle) < share ? low : high) = middle;
+    }
+    normal.push_back(low);
+  }
+  const double p_normal = beyond_tails_alike_p_value(4.5, normal);
+  EXPECT_GT(p_normal, normal_two_sided(4.5));
+  EXPECT_LT(p_normal, 30.0 * normal_two_sided(4.5));
+  const double p_exponential = beyond_tails_alike_p_value(9.0, exponential);
+  EXPECT_GT(p_exponential, 0.3 * std::exp(-9.0));
+  EXPECT_LT(p_exponential, 3.0 * std::exp(-9.0));
+  // Scale does not matter, nor do sizes of nothing; of few nothing is known.
+  for (double& size : normal) size *= 1e-3;
+  normal.push_back(0.0);
+  EXPECT_NEAR(beyond_tails_alike_p_value(4.5e-3, normal), p_normal, 1e-9 * p_normal);
+  EXPECT_EQ(beyond_tails_alike_p_value(9.0, {1.0, 1.0, 1.0}), 1.0);
+}
+
 /// Every place asked gives the value that sorting gives.
 void expect_as_sorted(const std::vector<double>& values) {
   std::vector<double> sorted = values;

@@ -209,6 +209,22 @@ TEST(FewTraces, StraightTracesThatTurnFromToothToToothAreNoWaveOverTheProfile) {
   }
 }
 
+TEST(FewTraces, ASpeckOnOneTraceIsToldOfNoToothThatWasNotMeasured) {
+  const auto speck = [](auto&, const FlankSpot& s, auto&) {
+    return s.tooth == 11 && s.side < 0 ? 5.2 * std::exp(-std::pow((s.u - 0.3) / 0.12, 2)) : 0.0;
+  };
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    InspectionOptions options = sheet(spur(41), 4, seed);
+    options.teeth = {1, 11, 21, 31};
+    options.points = 80;
+    options.correlation = 0.0;
+    options.index = options.helix = false;
+    const auto result = close(spur(41), inspection_of(spur(41), {grown(speck)}, options));
+    EXPECT_TRUE(tells_of(result, "tooth 11")) << list(result);
+    EXPECT_FALSE(tells_of(result, "tooth 10") || tells_of(result, "tooth 12")) << list(result);
+  }
+}
+
 /// Traces whose values were read in steps of 2.5 times their noise.
 TEST(FewTraces, CoarseReadingsSeldomAlarm) {
   const MadeGear gear = spur(24);

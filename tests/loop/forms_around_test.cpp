@@ -36,6 +36,19 @@ const std::vector<FormAround> kForms = {
                           std::remainder(tooth - 5.0 - k * kTeeth / 3.0, double{kTeeth}) / 1.8, 2));
        return sum;
      }},
+    {"the height goes in steps: against teeth 1 to 9, teeth 10 to 20 stand out by",
+     [](int tooth, int) { return tooth >= 21   ? 4.2
+                                 : tooth >= 10 ? 2.4
+                                               : 0.0; }},
+    {"to 31 alone the place of the teeth drifts evenly, counter-clockwise, and jumps back",
+     [](int tooth, int side) { return side * 0.4 * std::max(0, tooth - 14); }},
+    {"once around, the teeth stand high and low in a wave of 1.",
+     [](int tooth, int) { return 2.5 * std::cos(1.3 * 2.0 * M_PI * (tooth - 1) / kTeeth - 0.8); }},
+    {"alone the teeth stand ahead and behind in waves of 6",
+     [](int tooth, int side) {
+       return tooth >= 5 && tooth <= 20 ? 2.5 * side * std::cos(6.0 * 2.0 * M_PI * tooth / kTeeth)
+                                        : 0.0;
+     }},
 };
 
 loop::LoopResult index_of(const FormAround& form, double eccentric_um, unsigned seed) {

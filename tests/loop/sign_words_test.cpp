@@ -217,6 +217,24 @@ std::vector<Told> forms(const loop::FlankGeometry& g) {
        1,
        0,
        0},
+      {"unnamed_drift_of_some",
+       {5, 8, 0, 0, 1, 0},
+       "over teeth 5 to 12 alone the place of the teeth drifts evenly, counter-clockwise, and "
+       "jumps",
+       "drifts evenly, clockwise",
+       12,
+       1,
+       0,
+       0},
+      {"unnamed_drift_of_some",
+       {20, 9, 0, 1, 0, 1},
+       "over teeth 20 to 4 alone the lean over the face jumps, towards more material at the upper "
+       "end",
+       "towards less material at the upper end",
+       20,
+       1,
+       0,
+       1},
       {"unnamed_saw",
        {6, 1, 0, 1, 0},
        "the lean over the face drifts evenly, towards more material at the upper end",
@@ -354,7 +372,8 @@ TEST(SignWords, AreSaidOfEveryFormOfOneCoefficient) {
         "unnamed_patch", "unnamed_waviness", "unnamed_marks", "unnamed_waves_from",
         "unnamed_waves_dying", "unnamed_waves_growing", "unnamed_walking_waves",
         "unnamed_waves_changing", "unnamed_bow", "unnamed_field", "unnamed_facing",
-        "unnamed_moved_sector", "unnamed_drift_aside", "unnamed_broken_wave",
+        "unnamed_moved_sector", "unnamed_drift_aside", "unnamed_broken_wave", "unnamed_stairs",
+        "unnamed_wave_of_some",
         // (play is said by its axis; the words of those of some teeth are those of all)
         "unnamed_wobble", "unnamed_reversal", "unnamed_kink_of_teeth", "unnamed_bend_of_teeth",
         "unnamed_waviness_of_teeth"};
@@ -384,6 +403,28 @@ TEST(SignWords, SayWhereAWaveIsLargest) {
   EXPECT_THAT(
       told(g, effect_of("unnamed_waviness", {1, 2.5}), {0.0, 4.0}),
       HasSubstr("4.0 waves over the face, 2.5 mm long, the first crest at a height of 0.625 mm"));
+}
+
+TEST(SignWords, SayHowHighEveryStepIs) {
+  const auto g = geometry_of(spur(24));
+  EXPECT_THAT(
+      told(g, effect_of("unnamed_stairs", {20, 3, 12, 0}), {3.0, -1.5}),
+      HasSubstr("the height goes in steps: against teeth 20 to 2, teeth 3 to 11 stand out by 3 "
+                "um and teeth 12 to 19 lie back by 1.5 um"));
+  EXPECT_THAT(told(g, effect_of("unnamed_stairs", {1, 9, 17, 1}), {-3.0, 1.0}),
+              HasSubstr("teeth 9 to 16 stand clockwise by 3 um and teeth 17 to 24 stand "
+                        "counter-clockwise by 1 um"));
+  EXPECT_THAT(told(g, effect_of("unnamed_stairs", {1, 9, 17, 1})),
+              HasSubstr("teeth 9 to 16 and teeth 17 to 24 differ from teeth 1 to 8"));
+  double columns[2] = {7.0, 7.0};
+  const auto stairs = effect_of("unnamed_stairs", {20, 3, 12, 0});
+  const double middle = 0.5 * (g.root_form_roll_mm() + g.tip_form_roll_mm());
+  for (const auto& [tooth, first, second] :
+       {std::tuple{19, 0.0, 1.0}, {20, 0.0, 0.0}, {2, 0.0, 0.0}, {3, 1.0, 0.0}, {12, 0.0, 1.0}}) {
+    stairs.evaluate(g, g.on_flank(tooth, 1, middle, 5.0), columns);
+    EXPECT_EQ(columns[0], first) << tooth;
+    EXPECT_EQ(columns[1], second) << tooth;
+  }
 }
 
 TEST(SizesInWords, AreBoundedByTheFlankAndTheGear) {

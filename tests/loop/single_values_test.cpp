@@ -174,6 +174,46 @@ TEST(SingleValues, AToothThatBothFlanksShowIsNamedBesideTraces) {
   EXPECT_LE(others, 1);
 }
 
+/// An index with white noise of 1 um, so many times as loud on every fifth tooth.
+loop::InspectionData index_with(const MadeGear& gear, unsigned seed, double every_fifth = 1.0) {
+  InspectionOptions options;
+  options.profile = options.helix = false;
+  options.noise_um = 0.0;
+  loop::InspectionData data = inspection_of(gear, {}, options);
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  for (loop::InspectionRow& row : data.rows)
+    row.deviation_um += (row.tooth % 5 == 0 ? every_fifth : 1.0) * normal(random);
+  return data;
+}
+
+// A value of normal errors' size is told from a wild one by the other teeth's tails, on both
+// flanks.
+TEST(SingleValues, OneFlankOfOneToothStandsOutOfAnIndex) {
+  int found = 0, others = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    loop::InspectionData data = index_with(spur(30), seed);
+    for (loop::InspectionRow& row : data.rows)
+      if (row.tooth == 12 && row.flank == Flank::kLeft) row.deviation_um += 6.0;
+    const auto result = close(spur(30), data);
+    found += tells_of(result, "the left flank of tooth 12 stands out") ? 1 : 0;
+    others += result.effects.size() > 1 ? 1 : 0;
+  }
+  EXPECT_GE(found, 9);
+  EXPECT_LE(others, 1);
+}
+
+TEST(SingleValues, NoToothStandsOutOfNoiseOrOfTeethThatAreAllLouder) {
+  int of_white = 0, of_louder = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    of_white += close(spur(30), index_with(spur(30), seed)).effects.empty() ? 0 : 1;
+    of_louder +=
+        tells_of(close(spur(30), index_with(spur(30), seed, 3.0)), "inspect that tooth") ? 1 : 0;
+  }
+  EXPECT_LE(of_white, 1);
+  EXPECT_LE(of_louder, 5);
+}
+
 // Neighbours of few teeth differ by the wave itself: taken for noise it would weigh the index down.
 TEST(SingleValues, AWaveOfAnIndexOfFewTeethIsNoNoiseBesideTraces) {
   const MadeGear gear = helical(12, 13.0);

@@ -95,6 +95,9 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_broken_wave();
 [[nodiscard]] EffectFamily unnamed_saw();
 [[nodiscard]] EffectFamily unnamed_comb();
+[[nodiscard]] EffectFamily unnamed_stairs();
+[[nodiscard]] EffectFamily unnamed_drift_of_some();
+[[nodiscard]] EffectFamily unnamed_wave_of_some();
 [[nodiscard]] EffectFamily unnamed_dent();
 [[nodiscard]] EffectFamily unnamed_swellings();
 [[nodiscard]] EffectFamily unnamed_spot();

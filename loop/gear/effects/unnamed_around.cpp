@@ -314,4 +314,151 @@ EffectFamily unnamed_comb() {
   return f;
 }
 
+namespace {
+
+/// A shape that begins so many teeth before or after, on a tooth of the gear.
+void move_tooth(const FlankGeometry& g, double teeth, double& tooth) {
+  tooth = std::fmod(tooth - 1.0 + teeth + g.teeth(), g.teeth()) + 1.0;
+}
+
+/// "tooth 5 to 9", once around.
+std::string from_to(const FlankGeometry& g, double first, double after) {
+  double last = after;
+  move_tooth(g, -1.0, last);
+  return printed("teeth %.0f to %.0f", first, last);
+}
+
+}  // namespace
+
+EffectFamily unnamed_stairs() {
+  EffectFamily f = described("unnamed_stairs",
+                             {"first_tooth", "second_tooth", "third_tooth", "opposite_flanks"});
+  f.columns = [](const EffectShape&) { return 2; };
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = c[1] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    const int since = teeth_since(g, p.tooth, shape[0]);
+    const double size = shape[3] != 0.0 ? p.side : 1;
+    if (since >= teeth_since(g, static_cast<int>(shape[2]), shape[0]))
+      c[1] = size;
+    else if (since >= teeth_since(g, static_cast<int>(shape[1]), shape[0]))
+      c[0] = size;
+  };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    constexpr int kFewest = 2;
+    std::vector<EffectShape> shapes;
+    for (const std::size_t k : {0, 1, 2})
+      for (const double off : {-4.0, -2.0, -1.0, 1.0, 2.0, 4.0}) {
+        EffectShape beside = shape;
+        move_tooth(g, off, beside[k]);
+        const int second = teeth_since(g, static_cast<int>(beside[1]), beside[0]),
+                  third = teeth_since(g, static_cast<int>(beside[2]), beside[0]);
+        if (second >= kFewest && third >= second + kFewest && third <= g.teeth() - kFewest)
+          shapes.push_back(std::move(beside));
+      }
+    return shapes;
+  };
+  f.term_keys = {{"first_tooth"}, {"second_tooth"}, {"third_tooth"}, kFlanks};
+  f.words = [](const ToldForm& told) {
+    const FlankGeometry& g = told.geometry;
+    const EffectShape& shape = told.shape;
+    const bool opposite = shape[3] != 0.0;
+    const std::string base = from_to(g, shape[0], shape[1]),
+                      cause = ", as from a tool that is dressed or set again";
+    if (told.amounts.size() != 2)
+      return std::string(opposite ? "the place of the teeth" : "the height") +
+             " goes in steps: " + from_to(g, shape[1], shape[2]) + " and " +
+             from_to(g, shape[2], shape[0]) + " differ from " + base + cause;
+    const auto run = [&](std::size_t k, double first, double after) {
+      const double um = told.amounts[k];
+      return from_to(g, first, after) + " " +
+             (opposite ? "stand " + turned(um < 0.0 ? -1 : 1) : stand(um < 0.0 ? -1 : 1)) +
+             printed(" by %.3g um", std::abs(um));
+    };
+    return std::string(opposite ? "the place of the teeth" : "the height") +
+           " goes in steps: against " + base + ", " + run(0, shape[1], shape[2]) + " and " +
+           run(1, shape[2], shape[0]) + cause;
+  };
+  return f;
+}
+
+EffectFamily unnamed_drift_of_some() {
+  EffectFamily f = described("unnamed_drift_of_some", {"first_tooth", "teeth", "profile_degree",
+                                                       "face_degree", "opposite_flanks", "falls"});
+  f.is_drift = true;
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    const double since = teeth_since(g, p.tooth, shape[0]);
+    if (since >= shape[1]) return;
+    c[0] = (shape[5] != 0.0 ? shape[1] - since : since + 1.0) / shape[1] *
+           form_of_tooth(g, p, shape, 2);
+  };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    constexpr double kFewest = 3.0;
+    std::vector<EffectShape> shapes;
+    // Teeth more at its first and at its last: where it jumps it moves by one.
+    const auto add = [&](double first, double last) {
+      EffectShape beside = shape;
+      move_tooth(g, -first, beside[0]);
+      beside[1] += first + last;
+      if (beside[1] >= kFewest && beside[1] < g.teeth()) shapes.push_back(std::move(beside));
+    };
+    const bool falls = shape[5] != 0.0;
+    for (const double jump : {-1.0, 0.0, 1.0})
+      for (const double off : {-6.0, -4.0, -2.0, -1.0, 0.0, 1.0, 2.0, 4.0, 6.0})
+        if (jump != 0.0 || off != 0.0) add(falls ? jump : off, falls ? off : jump);
+    return shapes;
+  };
+  f.term_keys = {{"first_tooth"}, {"teeth"}, {"profile_degree"},
+                 {"face_degree"}, kFlanks,   {"course", TermKey::Kind::kWord, {"rises", "falls"}}};
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const CourseOfTeeth course = CourseOfTeeth::at(told, 2);
+    double after = shape[0];
+    move_tooth(told.geometry, shape[1], after);
+    const std::string teeth = "over " + from_to(told.geometry, shape[0], after) + " alone ";
+    return teeth + course.what() +
+           (shape[5] != 0.0 ? " jumps" + course.direction() + ", and drifts back evenly"
+                            : " drifts evenly" + course.direction() + ", and jumps back") +
+           ", as from a tool that begins to wear or something that comes loose";
+  };
+  return f;
+}
+
+EffectFamily unnamed_wave_of_some() {
+  EffectFamily f = described("unnamed_wave_of_some",
+                             {"first_tooth", "teeth", "periods_per_turn", "opposite_flanks"});
+  f.columns = [](const EffectShape&) { return 2; };
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = c[1] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    const double since = teeth_since(g, p.tooth, shape[0]);
+    if (since >= shape[1]) return;
+    const double angle = kTwoPi * shape[2] * since / g.teeth();
+    const double size = shape[3] != 0.0 ? p.side : 1;
+    c[0] = size * std::cos(angle);
+    c[1] = size * std::sin(angle);
+  };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes = sectors_beside(g, shape, 2);
+    for (const double longer : {-0.5, -0.2, -0.07, 0.07, 0.2, 0.5}) {
+      shapes.push_back(shape);
+      shapes.back()[2] += longer;
+    }
+    return shapes;
+  };
+  f.term_keys = {{"first_tooth"}, {"teeth"}, number("periods_per_turn"), kFlanks};
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    double after = shape[0];
+    move_tooth(told.geometry, shape[1], after);
+    return "over " + from_to(told.geometry, shape[0], after) + " alone the teeth stand " +
+           (shape[3] != 0.0 ? "ahead and behind" : "high and low") +
+           printed(" in waves of %.3g a turn, %.1f teeth long", shape[2],
+                   told.geometry.teeth() / shape[2]);
+  };
+  return f;
+}
+
 }  // namespace trueflank::loop::gear_effects

@@ -216,11 +216,53 @@ void add_repeating(int z, FlankChoice flank, double opposite,
   sets.push_back(std::move(saws));
 }
 
+/// What some neighbouring teeth have and the others do not: a drift, waves; and steps at three
+/// teeth.
+void add_of_some_teeth(int z, const CourseOverFlanks& course, FlankChoice flank, double opposite,
+                       std::vector<std::vector<Effect>>& sets) {
+  const auto [u, v] = course;
+  std::vector<Effect> drifts, waves, stairs;
+  const bool heights = u == 0.0 && v == 0.0;
+  if (heights && flank != FlankChoice::kBoth) return;
+  // (where a drift jumps counts, not where it begins or ends)
+  for (const int count : counts_between(std::max(4, z / 6), 17 * z / 20))
+    for (int jump = 1; jump <= z; ++jump)
+      for (const double falls : {0.0, 1.0}) {
+        const int first = falls != 0.0 ? jump : (jump - count + z) % z + 1;
+        drifts.push_back({find_family("unnamed_drift_of_some"),
+                          flank,
+                          {double(first), double(count), u, v, opposite, falls}});
+      }
+  sets.push_back(std::move(drifts));
+  if (!heights) return;
+  // Waves of two periods and more, of three teeth and more each.
+  constexpr int kFewestTeeth = 8, kMostPlaces = 12, kMostPeriods = 16;
+  for (const double share : {0.3, 0.5, 0.7})
+    for (int periods = static_cast<int>(std::ceil(1.5 / share));
+         3 * periods <= z && periods <= kMostPeriods; ++periods) {
+      const int count = static_cast<int>(share * z);
+      if (count < kFewestTeeth) continue;
+      for (int first = 1; first <= z; first += std::max(1, count / 4))
+        waves.push_back({find_family("unnamed_wave_of_some"),
+                         flank,
+                         {double(first), double(count), double(periods), opposite}});
+    }
+  const int step = std::max(2, z / kMostPlaces);
+  for (int first = 1; first + 2 * step <= z; first += step)
+    for (int second = first + step; second + step <= z; second += step)
+      for (int third = second + step; third <= z && third <= z + first - step; third += step)
+        stairs.push_back({find_family("unnamed_stairs"),
+                          flank,
+                          {double(first), double(second), double(third), opposite}});
+  sets.push_back(std::move(waves));
+  sets.push_back(std::move(stairs));
+}
+
 /// Sectors and drifts: what begins at one tooth.
 void add_beginning(int z, const CourseOverFlanks& course, FlankChoice flank, double opposite,
                    std::vector<std::vector<Effect>>& sets) {
   const auto [u, v] = course;
-  std::vector<Effect> sectors, ramps, levellings, half_waves;
+  std::vector<Effect> sectors, ramps, levellings, broken_waves;
   for (const int count : counts_between(2, z / 2))
     for (int first = 1; first <= z; first += step_of(count))
       sectors.push_back(
@@ -233,10 +275,11 @@ void add_beginning(int z, const CourseOverFlanks& course, FlankChoice flank, dou
                               flank,
                               {double(first), u, v, opposite, grows, share * z}});
     if (flank == FlankChoice::kBoth && u == 0.0 && v == 0.0)
-      half_waves.push_back(
-          {find_family("unnamed_broken_wave"), flank, {0.5, double(first), opposite}});
+      for (const double periods : {0.5, 0.75, 1.25, 1.5, 1.75, 2.25, 2.5, 2.75, 3.5})
+        broken_waves.push_back(
+            {find_family("unnamed_broken_wave"), flank, {periods, double(first), opposite}});
   }
-  for (std::vector<Effect>* forms : {&sectors, &ramps, &levellings, &half_waves})
+  for (std::vector<Effect>* forms : {&sectors, &ramps, &levellings, &broken_waves})
     sets.push_back(std::move(*forms));
 }
 
@@ -259,6 +302,7 @@ std::vector<std::vector<Effect>> forms_from_tooth_to_tooth(int teeth,
     for (const double opposite : {0.0, 1.0}) {
       if (opposite != 0.0 && flank != FlankChoice::kBoth) continue;
       add_beginning(teeth, course, flank, opposite, sets);
+      add_of_some_teeth(teeth, course, flank, opposite, sets);
       if (heights) add_repeating(teeth, flank, opposite, sets);
     }
     if (!heights) continue;

@@ -382,12 +382,8 @@ bool PartLoop::structure_is_left() const {
   if (effects_.empty()) {
     // Single teeth have a level of their own, at which they were chosen: they are asked again only
     // where the hold-out denied one, and never one of single values, whose tails may be long.
-    const bool single = std::none_of(
-        table_->rows.begin(), table_->rows.end(), [](const Observation& row) {
-          return row.kind != ObservationKind::kIndex && row.kind != ObservationKind::kRadial &&
-                 row.kind != ObservationKind::kSize;
-        });
-    const double p = vetoed_ && !single ? discovery_.first_p_value : discovery_.first_common_p_value;
+    const double p = vetoed_ && !has_single_values_only() ? discovery_.first_p_value
+                                                          : discovery_.first_common_p_value;
     return p <= sure / options_.tables;
   }
   return discovery_.p_left <= kLeft / options_.tables && discovery_.most_likely_left >= 0;

@@ -255,6 +255,7 @@ class PartLoop {
   [[nodiscard]] bool adopt_if_simpler(Options options, int least_spared);
   void take_over(PartLoop& other);
   [[nodiscard]] const EffectFamily* form_of_level(std::size_t effect) const;
+  [[nodiscard]] bool has_single_values_only() const;
   void look_at_single_teeth();
   void drop_teeth_within_the_tails();
   void look_at_sizes();

@@ -277,7 +277,7 @@ void PartLoop::take_form_around(const CourseOverFlanks& course, int teeth) {
     return cost_around(part.geometry_, fit->observations(), fit->residual_square(), part.effects_);
   };
   const double own = cost(*this);
-  const bool seen = vetoed_ || first_told_here() < effects_.size();
+  const bool seen = first_told_here() < effects_.size();
   double least = own - kClearlyLess;
   std::unique_ptr<PartLoop> best;
   for (const RemainderFinding& start : forms_around(course, teeth)) {

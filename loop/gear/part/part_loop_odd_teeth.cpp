@@ -216,6 +216,17 @@ bool PartLoop::tell_as_form_of_some_teeth(FlankChoice flank) {
     if (run.count == 1 && pieces.size() > 1)
       for (const int first : {run.first - 1, run.first}) spans.push_back({first, 2});
   }
+  std::set<int> measured;
+  for (const Patches::Patch& patch : patches_.patches)
+    measured.insert(patch.places.front().place.tooth);
+  const auto is_measured = [&](int tooth) {
+    return measured.count(((tooth - 1) % z + z) % z + 1) > 0;
+  };
+  // A form of some teeth ends on teeth that show it.
+  for (SpanOfTeeth& span : spans) {
+    for (; span.count > 1 && !is_measured(span.first); --span.count) ++span.first;
+    while (span.count > 1 && !is_measured(span.first + span.count - 1)) --span.count;
+  }
   std::vector<SpanOfTeeth> tried;
   for (SpanOfTeeth span : spans) {
     span.first = (span.first - 1 + z) % z + 1;

@@ -306,13 +306,17 @@ double chance_of_both_flanks(const std::vector<double>& own_um,
   return std::min(1.0, chance);
 }
 
-/// How likely the tails of the teeth's own scores, or those of their values, reach as far as one tooth
-/// does by chance.
-double chance_of_tooth(const Observations& table, const Effect& tooth,
-                       const FlankGeometry& geometry, const std::vector<float>& row_um) {
-  std::vector<double> sizes, own_um;
+/// What single values say of a form of one tooth, and of the same of every other.
+struct ScoresOfTeeth {
+  double own = 0.0;  ///< size, as the others'
+  std::vector<double> others;
+  std::vector<int> teeth;  ///< of the others
+  std::vector<double> own_um;
   std::vector<std::vector<double>> others_um;
-  double own = 0.0;
+};
+ScoresOfTeeth scores_of_teeth(const Observations& table, const Effect& tooth,
+                              const FlankGeometry& geometry, const std::vector<float>& row_um) {
+  ScoresOfTeeth scores;
   Effect each = tooth;
   for (int k = 1; k <= geometry.teeth(); ++k) {
     each.shape[0] = k;
@@ -333,15 +337,77 @@ double chance_of_tooth(const Observations& table, const Effect& tooth,
     if (!(square > 0.0)) continue;
     const double size = std::abs(product) / std::sqrt(square);
     if (k == static_cast<int>(tooth.shape[0])) {
-      own = size;
-      own_um = std::move(of_tooth_um);
+      scores.own = size;
+      scores.own_um = std::move(of_tooth_um);
     } else {
-      sizes.push_back(size);
-      others_um.push_back(std::move(of_tooth_um));
+      scores.others.push_back(size);
+      scores.teeth.push_back(k);
+      scores.others_um.push_back(std::move(of_tooth_um));
     }
   }
-  return std::min(gap_beyond_tail_p_value(own, std::move(sizes)),
-                  chance_of_both_flanks(own_um, others_um));
+  return scores;
+}
+
+double mean_square(const std::vector<double>& values) {
+  double squares = 0.0;
+  for (const double value : values) squares += value * value;
+  return squares / static_cast<double>(values.size());
+}
+
+/// What the other flank's teeth score, as loud as these: they tell of the same tails.
+void add_other_flank(const Observations& table, Effect tooth, const FlankGeometry& geometry,
+                     const std::vector<float>& row_um, ScoresOfTeeth& scores) {
+  if (tooth.flank == FlankChoice::kBoth) return;
+  tooth.flank = tooth.flank == FlankChoice::kLeft ? FlankChoice::kRight : FlankChoice::kLeft;
+  ScoresOfTeeth there = scores_of_teeth(table, tooth, geometry, row_um);
+  there.others.push_back(there.own);
+  there.teeth.push_back(static_cast<int>(tooth.shape[0]));
+  const double usual = mean_square(there.others);
+  if (scores.others.empty() || !(usual > 0.0)) return;
+  const double as_loud = std::sqrt(mean_square(scores.others) / usual);
+  for (const double size : there.others) scores.others.push_back(size * as_loud);
+  scores.teeth.insert(scores.teeth.end(), there.teeth.begin(), there.teeth.end());
+}
+
+/// How much louder every so manieth tooth is than the others, counted from this one on; 1 where
+/// none clearly is.
+double loudness_of_every(int tooth, const ScoresOfTeeth& scores) {
+  constexpr int kFewestBetween = 2, kMostBetween = 8;
+  constexpr std::size_t kFewest = 3;
+  constexpr double kClearly = 0.01 / (kMostBetween - kFewestBetween + 1);
+  double loudness = 1.0, least = kClearly;
+  for (int every = kFewestBetween; every <= kMostBetween; ++every) {
+    std::vector<double> these, rest;
+    for (std::size_t i = 0; i < scores.others.size(); ++i)
+      ((scores.teeth[i] - tooth) % every == 0 ? these : rest).push_back(scores.others[i]);
+    if (these.size() < kFewest || rest.size() < kFewest) continue;
+    const double ratio = mean_square(these) / mean_square(rest);
+    const double p =
+        f_tail(ratio, static_cast<double>(these.size()), static_cast<double>(rest.size()));
+    if (!(p < least)) continue;
+    least = p;
+    loudness = std::sqrt(ratio);
+  }
+  return loudness;
+}
+
+/// How likely the tails of the teeth's own scores, or those of their values, reach as far as one
+/// tooth does by chance.
+double chance_of_tooth(const Observations& table, const Effect& tooth,
+                       const FlankGeometry& geometry, const std::vector<float>& row_um) {
+  const ScoresOfTeeth scores = scores_of_teeth(table, tooth, geometry, row_um);
+  ScoresOfTeeth all = scores;
+  add_other_flank(table, tooth, geometry, row_um, all);
+  const double loudness = loudness_of_every(static_cast<int>(tooth.shape[0]), all);
+  // (what both flanks have is asked twice: as one score, and as a pair)
+  const double tests = tooth.flank == FlankChoice::kBoth ? 2.0 : 1.0;
+  const double own = scores.own / loudness;
+  const double number = tests * static_cast<double>(all.others.size() + 1);
+  std::vector<double> own_um = scores.own_um;
+  for (double& um : own_um) um /= loudness;
+  return std::min({gap_beyond_tail_p_value(own, scores.others),
+                   number * beyond_tails_alike_p_value(own, all.others),
+                   chance_of_both_flanks(own_um, scores.others_um)});
 }
 
 /// The sizes of one tooth's single values, if nothing but they shows its height; empty otherwise.

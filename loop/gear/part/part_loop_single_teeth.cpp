@@ -9,6 +9,14 @@
 
 namespace trueflank::loop {
 
+/// Index, runout and sizes: no trace, no scan.
+bool PartLoop::has_single_values_only() const {
+  return std::none_of(table_->rows.begin(), table_->rows.end(), [](const Observation& row) {
+    return row.kind != ObservationKind::kIndex && row.kind != ObservationKind::kRadial &&
+           row.kind != ObservationKind::kSize;
+  });
+}
+
 /// Single teeth once more with the hold-out: what stands in one tooth cannot be learnt from others.
 void PartLoop::look_at_single_teeth() {
   std::vector<Effect> local;
@@ -25,6 +33,9 @@ void PartLoop::look_at_single_teeth() {
     if (fold == 0) fold = 1;
   DiscoveryOptions options;
   options.first_level = options.next_level = 0.0;
+  // Of values one a tooth alone the tails are asked besides.
+  constexpr double kBesideTails = 0.01;
+  if (has_single_values_only()) options.local_level = kBesideTails;
   options.local_level /= options_.tables;
   options.flips = 1;
   options.most_effects = 3;
