@@ -144,6 +144,18 @@ TEST(WavesAcrossTheFlanks, LeaveAScaleItsName) {
   expect_size(result, "scale", "percent", -0.2, 0.01);
 }
 
+TEST(NamesWithAPlace, StandBesideARiseInsteadOfTwoThatUndoEachOther) {
+  const MadeGear gear = spur(22);
+  const auto filled = [](auto&, const FlankSpot& s, auto&) {
+    return relief_um(s) + 24.0 * std::exp(-(s.u + 1.0) / 0.26);
+  };
+  // (other errors may leave a bow beside a curve, which has a value less)
+  const auto result = close(gear, inspection_of(gear, {grown(filled)}, traced({1, 8, 15}, 1.6, 2)));
+  expect_size(result, "tip_relief", "amount_um", 12.0, 1.5);
+  EXPECT_TRUE(tells_of(result, "towards the root, within")) << list(result);
+  EXPECT_EQ(result.effects.size(), 2U) << list(result);
+}
+
 TEST(FormsOfSomeTeeth, AGrooveIsOneFormBesideACrowning) {
   const MadeGear gear = spur(32);
   // From tooth 29 on, and over tooth 1: the first tooth says nothing of the others.

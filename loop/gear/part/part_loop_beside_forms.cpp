@@ -163,6 +163,24 @@ bool PartLoop::stands_beside_one_form(const PointFit& fit, std::size_t e, bool f
   });
 }
 
+/// Names without a place that run along the profile (0) or the face (1), of either flank or alike
+/// on both, or opposite on them, too; of those that run alike the one first that such data are told
+/// by.
+std::vector<Effect> PartLoop::names_along(int face, bool opposite_too) const {
+  const Runs runs = face == 0 ? Runs::kOverProfile : Runs::kOverFace;
+  std::vector<Effect> names;
+  for (std::size_t c = 0; c < candidates_.size(); ++c)
+    if (candidates_[c].family->named && !unseen_[c] && candidates_[c].shape.empty() &&
+        candidates_[c].columns() == 1 &&
+        runs_of(geometry_, candidates_[c], opposite_too ? Flanks::kOfEither : Flanks::kAlike) ==
+            runs)
+      names.push_back(candidates_[c]);
+  std::stable_sort(names.begin(), names.end(), [this](const Effect& a, const Effect& b) {
+    return preference_of(a) < preference_of(b);
+  });
+  return names;
+}
+
 /// Of names that run alike, the one with the lowest is what such data are told by.
 int PartLoop::preference_of(const Effect& name) const {
   return name.family->preference + (table_->points_mm.empty() ? name.family->penalty_of_traces : 0);

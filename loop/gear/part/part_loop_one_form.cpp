@@ -202,6 +202,10 @@ std::vector<Effect> PartLoop::one_form_for(const std::vector<std::size_t>& these
                            !e.family->shape_is_step && runs_of(geometry_, e) == runs;
                   }))
     refine_shapes(geometry_, table_, patches_, with, first_told_here());
+  if (std::any_of(beside.begin(), beside.end(), [](const Effect& e) {
+        return e.family->nearby && !e.family->shape_is_continuous;
+      }))
+    refine_nearby(geometry_, table_, patches_, with);
   if (with.back().family->named &&
       !is_possible(geometry_, *fit_of(with), static_cast<int>(with.size()) - 1))
     return {};
@@ -314,24 +318,6 @@ bool PartLoop::tell_as_form_beside_slope(const std::vector<std::size_t>& all, in
   return false;
 }
 
-/// Names without a place that run along the profile (0) or the face (1), of either flank or alike
-/// on both, or opposite on them, too; of those that run alike the one first that such data are told
-/// by.
-std::vector<Effect> PartLoop::names_along(int face, bool opposite_too) const {
-  const Runs runs = face == 0 ? Runs::kOverProfile : Runs::kOverFace;
-  std::vector<Effect> names;
-  for (std::size_t c = 0; c < candidates_.size(); ++c)
-    if (candidates_[c].family->named && !unseen_[c] && candidates_[c].shape.empty() &&
-        candidates_[c].columns() == 1 &&
-        runs_of(geometry_, candidates_[c], opposite_too ? Flanks::kOfEither : Flanks::kAlike) ==
-            runs)
-      names.push_back(candidates_[c]);
-  std::stable_sort(names.begin(), names.end(), [this](const Effect& a, const Effect& b) {
-    return preference_of(a) < preference_of(b);
-  });
-  return names;
-}
-
 /// A hollow or swelling of these flanks that ends by itself, or with an edge, for these effects.
 bool PartLoop::put_dish_for(const std::vector<std::size_t>& these, FlankChoice flank) {
   for (const char* family : {"unnamed_dish", "unnamed_patch"})
@@ -413,14 +399,27 @@ bool PartLoop::tell_as_name_with_a_place(int face) {
       all.push_back(e);
       own.push_back(effects_[e]);
     }
+  if (all.size() < 2 || values_of(own, true) < kFewestValues) return false;
   std::vector<Effect> names = names_with_shapes(geometry_, own);
-  if (names.empty() || all.size() < 2 || values_of(own, true) < kFewestValues) return false;
+  // What undoes itself may be a name that is not among them beside a rise at an end.
+  const bool undo = undo_each_other(geometry_, *fit_of(effects_), all);
+  for (std::size_t c = 0; undo && c < candidates_.size(); ++c)
+    if (const Effect& name = candidates_[c];
+        name.family->named && name.family->shape_is_continuous && !name.family->shape_is_step &&
+        !unseen_[c] && name.shape.size() == 1 && runs_of(geometry_, name) == runs)
+      names.push_back(name);
+  if (names.empty()) return false;
   for (Effect& name : names) name.flank = FlankChoice::kBoth;
+  std::stable_sort(names.begin(), names.end(),
+                   [](const Effect& a, const Effect& b) { return a.family->id < b.family->id; });
   Effect turned = slope_over(face, FlankChoice::kBoth);
   turned.shape.back() = 1.0;
   std::vector<Effect> beside{turned};
   for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight})
     beside.push_back(s_over(face, flank));
+  for (Effect& form : forms_along(geometry_, face, FlankChoice::kBoth, false))
+    if (undo && form.family == find_family("unnamed_rise") && form.shape[2] != 0.0)
+      beside.push_back(std::move(form));
   return std::any_of(beside.begin(), beside.end(), [&](const Effect& form) {
     return std::find(own.begin(), own.end(), form) == own.end() &&
            put_one_form_for(all, names, {form});
