@@ -73,6 +73,89 @@ TEST(EqualForms, LeaveAHelixErrorItsName) {
   }
 }
 
+/// Worn at an end of the right flanks, or S-shaped over the profile of the left ones.
+double worn_um(const FlankSpot& s) {
+  return s.side < 0 ? -14.0 * std::exp((s.v - 1.0) / 0.3) : 0.0;
+}
+double s_shaped_um(const FlankSpot& s) {
+  return s.side > 0 ? 14.0 * (s.u * s.u * s.u - 0.6 * s.u) : 0.0;
+}
+double relief_um(const FlankSpot& s) { return -12.0 * std::pow(std::max(s.u - 0.3, 0.0) / 0.7, 2); }
+
+TEST(FormsOfOneFlank, LeaveWhatTheOtherFlankShowsItsName) {
+  const MadeGear gear = spur(20);
+  const auto worn = [](auto&, const FlankSpot& s, auto&) { return worn_um(s) - 5.0 * s.v * s.v; };
+  const auto bent = [](auto&, const FlankSpot& s, auto&) { return s_shaped_um(s) + relief_um(s); };
+  for (unsigned seed = 1; seed <= 2; ++seed) {
+    const InspectionOptions options = traced({1, 6, 11, 16}, 0.8, seed);
+    const auto lines = close(gear, inspection_of(gear, {grown(worn)}, options));
+    const auto cloud = close(gear, scan_of(gear, {grown(worn)}, scanned(8000, 1.2, seed)), true);
+    for (const loop::LoopResult* result : {&lines, &cloud}) {
+      ASSERT_NE(find(*result, "crowning"), nullptr) << list(*result);
+      expect_size(*result, "crowning", "amount_um", 5.0, 0.35);
+      EXPECT_EQ(find(*result, "crowning")->flank, "both") << list(*result);
+      EXPECT_TRUE(tells_of(*result, "towards the upper end, within")) << list(*result);
+    }
+    const auto profile = close(gear, inspection_of(gear, {grown(bent)}, options));
+    ASSERT_NE(find(profile, "tip_relief"), nullptr) << list(profile);
+    expect_size(profile, "tip_relief", "amount_um", 12.0, 1.0);
+    EXPECT_EQ(find(profile, "tip_relief")->flank, "both") << list(profile);
+  }
+}
+
+TEST(FormsOfOneFlank, LeaveNoNameThatTheOtherFlankDoesNotShow) {
+  const MadeGear gear = spur(26);
+  const auto worn = [](auto&, const FlankSpot& s, auto&) { return worn_um(s); };
+  const auto bent = [](auto&, const FlankSpot& s, auto&) { return s_shaped_um(s); };
+  for (unsigned seed = 1; seed <= 2; ++seed)
+    for (const Process& process : {grown(worn), grown(bent)}) {
+      const auto result =
+          close(gear, inspection_of(gear, {process}, traced({1, 8, 14, 20}, 0.8, seed)));
+      EXPECT_FALSE(has_name(result)) << list(result);
+    }
+}
+
+TEST(SectorsThatLean, LeaveATaperItsName) {
+  const MadeGear gear = spur(28);
+  const auto leaning = [](auto&, const FlankSpot& s, auto&) {
+    return -6.0 * s.v + (s.tooth >= 9 && s.tooth <= 16 ? 7.0 * s.side * s.v : 0.0);
+  };
+  const auto result = close(gear, inspection_of(gear, {grown(leaning)}, traced({}, 1.0, 1)));
+  expect_size(result, "taper", "slope_um", -12.0, 0.6);
+  EXPECT_TRUE(tells_of(result, "a sector of 8 teeth from tooth 9 on leans")) << list(result);
+}
+
+TEST(HeightsThatChange, LeaveAReliefItsName) {
+  const MadeGear gear = spur(34);
+  const auto warming = [](auto&, const FlankSpot& s, auto&) {
+    return relief_um(s) + 22.0 * (1.0 - std::exp(-(s.tooth - 1) / 6.0));
+  };
+  const auto result = close(gear, scan_of(gear, {grown(warming)}, scanned(9000, 1.5, 1)), true);
+  expect_size(result, "tip_relief", "amount_um", 12.0, 0.6);
+}
+
+TEST(WavesAcrossTheFlanks, LeaveAScaleItsName) {
+  const MadeGear gear = spur(23);
+  const auto waved = [](auto&, const FlankSpot& s, auto&) {
+    return 12.0 * std::cos(4.4 * s.u + 8.5 * s.v);
+  };
+  const auto result =
+      close(gear, scan_of(gear, {scaled(-0.2), grown(waved)}, scanned(9000, 1.5, 1)), true);
+  expect_size(result, "scale", "percent", -0.2, 0.01);
+}
+
+TEST(NamesWithAPlace, StandBesideARiseInsteadOfTwoThatUndoEachOther) {
+  const MadeGear gear = spur(22);
+  const auto filled = [](auto&, const FlankSpot& s, auto&) {
+    return relief_um(s) + 24.0 * std::exp(-(s.u + 1.0) / 0.26);
+  };
+  // (other errors may leave a bow beside a curve, which has a value less)
+  const auto result = close(gear, inspection_of(gear, {grown(filled)}, traced({1, 8, 15}, 1.6, 2)));
+  expect_size(result, "tip_relief", "amount_um", 12.0, 1.5);
+  EXPECT_TRUE(tells_of(result, "towards the root, within")) << list(result);
+  EXPECT_EQ(result.effects.size(), 2U) << list(result);
+}
+
 TEST(FormsOfSomeTeeth, AGrooveIsOneFormBesideACrowning) {
   const MadeGear gear = spur(32);
   // From tooth 29 on, and over tooth 1: the first tooth says nothing of the others.

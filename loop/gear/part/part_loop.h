@@ -140,9 +140,12 @@ class PartLoop {
   void tell_bows_with_a_level();
   void drop_echoes_of_forms();
   void tell_parts_of_a_form();
+  [[nodiscard]] bool stands_on_every_flank(const PointFit& fit, std::size_t effect) const;
   [[nodiscard]] bool stands_beside_forms(const PointFit& fit, std::size_t effect) const;
   [[nodiscard]] bool stands_beside_one_form(const PointFit& fit, std::size_t effect,
                                             bool face) const;
+  [[nodiscard]] std::optional<int> flank_that_shows(const PointFit& fit, std::size_t effect,
+                                                    bool face) const;
   void tell_parts_beside_forms();
   void tell_parts_of_a_sector();
   void tell_means_of_odd_forms();
@@ -161,6 +164,8 @@ class PartLoop {
                                                FlankChoice flank);
   [[nodiscard]] bool tell_as_form_beside_slope(const std::vector<std::size_t>& all, int face,
                                                FlankChoice flank);
+  [[nodiscard]] std::vector<Effect> names_along(int face, bool opposite_too = false) const;
+  [[nodiscard]] int preference_of(const Effect& name) const;
   /// What a form that is tried may leave at most: before its place and widths are sought, and then.
   struct MostLeft {
     double on_the_grid = 1e300, in_place = 1e300;
@@ -178,6 +183,7 @@ class PartLoop {
   [[nodiscard]] bool tell_as_corner();
   [[nodiscard]] bool tell_as_product();
   [[nodiscard]] bool tell_as_form_of_other_flanks(int face);
+  [[nodiscard]] bool tell_as_name_with_a_place(int face);
   [[nodiscard]] bool put_dish_for(const std::vector<std::size_t>& these, FlankChoice flank);
   [[nodiscard]] bool tell_as_field();
   [[nodiscard]] bool tell_as_facing();

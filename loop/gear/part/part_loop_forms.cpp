@@ -6,102 +6,13 @@
 #include <optional>
 #include <set>
 
-#include "trueflank/geometry/linear_equations.h"
-#include "trueflank/loop/gear/part/forms_to_try.h"
+#include "trueflank/loop/gear/part/flank_courses.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/part/runs_along.h"
 
 namespace trueflank::loop {
 
 namespace {
-
-constexpr int kPlaces = 33, kDegrees = 4;
-
-/// What an effect does along the flanks of one tooth, over the profile or the face: the places of
-/// the left flank, then of the right one.
-Eigen::VectorXd values_along(const FlankGeometry& geometry, const PointFit& fit, std::size_t effect,
-                             bool face, int tooth = 1) {
-  const Effect& one = fit.effects()[effect];
-  const int first = fit.first_column(static_cast<int>(effect));
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(2 * kPlaces);
-  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
-  double columns[8];
-  for (int i = 0; i < 2 * kPlaces; ++i) {
-    const double share = static_cast<double>(i % kPlaces) / (kPlaces - 1);
-    const double roll = low + (face ? 0.5 : share) * (high - low);
-    one.evaluate(geometry,
-                 geometry.on_flank(tooth, i < kPlaces ? 1 : -1, roll,
-                                   (face ? share : 0.5) * geometry.face_width_mm()),
-                 columns);
-    for (int k = 0; k < one.columns(); ++k) values[i] += fit.coefficients()[first + k] * columns[k];
-  }
-  return values;
-}
-
-/// True where one tooth does not say what the mean of all does: a form of some teeth.
-bool differs_by_tooth(const Effect& effect) {
-  const EffectFamily& family = *effect.family;
-  return family.faces_a_direction ||
-         (effect.is_term() && effect.order() == 0.0 &&
-          !(family.same_on_every_tooth && family.same_on_every_tooth(effect.shape)));
-}
-
-/// What an effect does in the mean of the teeth, of some where all are more than are needed.
-Eigen::VectorXd mean_over_teeth(const FlankGeometry& geometry, const PointFit& fit,
-                                std::size_t effect, bool face) {
-  constexpr int kTeeth = 12;
-  const bool all = differs_by_tooth(fit.effects()[effect]);
-  const int teeth = all ? geometry.teeth() : std::min(kTeeth, geometry.teeth());
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(2 * kPlaces);
-  for (int i = 0; i < teeth; ++i)
-    mean += values_along(geometry, fit, effect, face, 1 + i * geometry.teeth() / teeth) / teeth;
-  return mean;
-}
-
-/// Along the flanks, each about its mean; in the mean of the teeth where they differ.
-Eigen::VectorXd course_of(const FlankGeometry& geometry, const PointFit& fit, std::size_t effect,
-                          bool face) {
-  Eigen::VectorXd course = differs_by_tooth(fit.effects()[effect])
-                               ? mean_over_teeth(geometry, fit, effect, face)
-                               : values_along(geometry, fit, effect, face);
-  course.head(kPlaces).array() -= course.head(kPlaces).mean();
-  course.tail(kPlaces).array() -= course.tail(kPlaces).mean();
-  // What does not run that way leaves the rounding of its mean.
-  constexpr double kNothing_um = 1e-6;
-  if (course.norm() < kNothing_um) course.setZero();
-  return course;
-}
-
-/// How the two flanks of a tooth go together in a course.
-enum class Kind { kEqual, kOpposite, kNeither };
-Kind kind_of(const Eigen::VectorXd& course) {
-  constexpr double kNothing = 1e-6;
-  const double nothing = kNothing * course.norm();
-  if ((course.head(kPlaces) - course.tail(kPlaces)).norm() <= nothing) return Kind::kEqual;
-  if ((course.head(kPlaces) + course.tail(kPlaces)).norm() <= nothing) return Kind::kOpposite;
-  return Kind::kNeither;
-}
-
-/// True where a course leaves one of the flanks nearly level.
-bool is_of_one_flank(const Eigen::VectorXd& course) {
-  constexpr double kNearlyNothing = 0.25;
-  const auto bends = [](const auto& flank) {
-    return (flank.array() - flank.mean()).matrix().norm();
-  };
-  const double left = bends(course.head(kPlaces)), right = bends(course.tail(kPlaces));
-  return std::min(left, right) < kNearlyNothing * std::max(left, right);
-}
-
-/// The part of a course that is of a kind: what is equal on both flanks is no part of a name that
-/// is opposite on them. What is of one flank is wholly there.
-Eigen::VectorXd part_of_kind(const Eigen::VectorXd& course, Kind kind) {
-  if (kind == Kind::kNeither || is_of_one_flank(course)) return course;
-  const double sign = kind == Kind::kEqual ? 1.0 : -1.0;
-  const Eigen::VectorXd half = 0.5 * (course.head(kPlaces) + sign * course.tail(kPlaces));
-  Eigen::VectorXd part(course.size());
-  part << half, sign * half;
-  return part;
-}
 
 /// True where an effect lifts all flanks by nearly one amount (a scale, too, on few teeth).
 bool is_level(const FlankGeometry& geometry, const PointFit& fit, std::size_t effect) {
@@ -113,47 +24,6 @@ bool is_level(const FlankGeometry& geometry, const PointFit& fit, std::size_t ef
         kFlat * values_along(geometry, fit, effect, face).norm())
       return false;
   return true;
-}
-
-/// The part of a course that polynomials follow.
-Eigen::VectorXd slow_part(const Eigen::VectorXd& course) {
-  Eigen::MatrixXd powers(kPlaces, kDegrees + 1);
-  for (int i = 0; i < kPlaces; ++i)
-    for (int d = 0; d <= kDegrees; ++d) powers(i, d) = std::pow(2.0 * i / (kPlaces - 1) - 1.0, d);
-  const Eigen::MatrixXd fit =
-      SymmetricSolver(powers.transpose() * powers).solve_columns(powers.transpose());
-  Eigen::VectorXd slow(course.size());
-  slow << powers * (fit * course.head(kPlaces)), powers * (fit * course.tail(kPlaces));
-  return slow;
-}
-
-bool is_common_form(const Effect& e) {
-  return e.is_term() && e.family->form_word.empty() && e.order() == 0.0;
-}
-
-bool is_form_without_name(const Effect& e) { return e.is_term() && e.family->form_word.empty(); }
-
-/// A course that is a straight line on either flank, opposite to the other's.
-bool is_opposite_slope(const Eigen::VectorXd& course) {
-  constexpr double kNothing = 1e-6;
-  double bends = 0.0;
-  for (Eigen::Index i = 1; i + 1 < course.size(); ++i)
-    if (i != kPlaces && i + 1 != kPlaces)
-      bends = std::max(bends, std::abs(course[i - 1] - 2.0 * course[i] + course[i + 1]));
-  const double nothing = kNothing * course.norm();
-  return bends <= nothing && (course.head(kPlaces) + course.tail(kPlaces)).norm() <= nothing;
-}
-
-/// What the forms without a name do in the mean of the teeth, but for slopes that are opposite on
-/// the two flanks: these are no part of what is equal on both.
-Eigen::VectorXd mean_of_forms(const FlankGeometry& geometry, const PointFit& fit, bool face) {
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(2 * kPlaces);
-  for (std::size_t e = 0; e < fit.effects().size(); ++e) {
-    if (!is_form_without_name(fit.effects()[e]) || fit.effects()[e].order() > 0.0) continue;
-    const Eigen::VectorXd own = mean_over_teeth(geometry, fit, e, face);
-    if (!is_opposite_slope(own)) mean += own;
-  }
-  return mean;
 }
 
 /// What the forms without a name do slowly along the flanks, over the profile and over the face.
@@ -264,109 +134,6 @@ double comb_um(const PointFit& fit) {
 
 }  // namespace
 
-/// Along most of every flank that a name runs over, the forms without a name are flat (a step, a
-/// kink or a bulge stands elsewhere): there the name stands by itself. So it does beside rises and
-/// bulges that have no part of its course: a bell mouth at both ends has no slope.
-bool PartLoop::stands_beside_forms(const PointFit& fit, std::size_t e) const {
-  constexpr double kFlat = 0.1, kMost = 0.5, kNoPart = 0.2;
-  bool runs = false;
-  for (const bool face : {false, true}) {
-    const Eigen::VectorXd course = course_of(geometry_, fit, e, face);
-    if (!(course.norm() > 0.0)) continue;
-    const Eigen::VectorXd forms =
-        part_of_kind(mean_of_forms(geometry_, fit, face), kind_of(course));
-    const bool rises_alone = std::all_of(effects_.begin(), effects_.end(), [&](const Effect& form) {
-      const NeedsToBeSeen needs = form.needs();
-      return !is_common_form(form) || !(face ? needs.along_face : needs.along_profile) ||
-             form.family == find_family("unnamed_rise") ||
-             form.family == find_family("unnamed_band");
-    });
-    for (const int flank : {0, 1}) {
-      const auto own = course.segment(flank * kPlaces, kPlaces);
-      if (!(own.norm() > 1e-6 * course.norm())) continue;
-      runs = true;
-      const double step = (own.maxCoeff() - own.minCoeff()) / (kPlaces - 1);
-      int flat = 0;
-      for (int i = flank * kPlaces; i + 1 < (flank + 1) * kPlaces; ++i)
-        flat += std::abs(forms[i + 1] - forms[i]) < kFlat * step ? 1 : 0;
-      if (flat >= kMost * (kPlaces - 1)) continue;
-      const auto beside = forms.segment(flank * kPlaces, kPlaces);
-      const double both = (beside.array() - beside.mean()).matrix().dot(own);
-      const double norms = (beside.array() - beside.mean()).matrix().norm() * own.norm();
-      if (!rises_alone || std::abs(both) > kNoPart * norms) return false;
-    }
-  }
-  return runs;
-}
-
-namespace {
-
-/// True of what is so wide or long that the flank is a small part of it: a bow, told another way.
-bool is_longer_than_the_flank(const FlankGeometry& geometry, const Effect& form, bool face) {
-  constexpr double kMostOfIt = 0.5, kLongest = 1.5;
-  const double range_mm =
-      face ? geometry.face_width_mm()
-           : std::abs(geometry.tip_form_roll_mm() - geometry.root_form_roll_mm());
-  return (form.family == find_family("unnamed_band") && form.shape[2] > kMostOfIt * range_mm) ||
-         (form.family == find_family("unnamed_waviness") && form.shape[1] > kLongest * range_mm);
-}
-
-}  // namespace
-
-/// A slope or a bow stands by itself beside the one form that there is along its flanks where that
-/// has no part of its course, as an S or a bow has no slope, and no form that bends, steps, rises
-/// or comes in waves says both.
-bool PartLoop::stands_beside_one_form(const PointFit& fit, std::size_t e, bool face) const {
-  constexpr double kDenied = 25.0;                    // chi-square
-  constexpr double kOnTheGrid = 0.5, kInPlace = 0.1;  // of what both take out
-  constexpr double kNoPart = 0.2;
-  const Effect& name = effects_[e];
-  if (name.columns() != 1 || !name.shape.empty()) return false;
-  const Eigen::VectorXd course = course_of(geometry_, fit, e, face);
-  const Kind kind = kind_of(course);
-  std::vector<Effect> rest;
-  int count = 0;
-  for (std::size_t f = 0; f < effects_.size(); ++f) {
-    if (f == e) continue;
-    const Eigen::VectorXd form = is_common_form(effects_[f]) && !differs_by_tooth(effects_[f])
-                                     ? part_of_kind(course_of(geometry_, fit, f, face), kind)
-                                     : Eigen::VectorXd::Zero(course.size());
-    if (!(form.norm() > 0.0)) {
-      rest.push_back(effects_[f]);
-      continue;
-    }
-    if (++count > 1 || effects_[f].columns() != 1 || effects_[f].flank != name.flank ||
-        std::abs(form.dot(course)) > kNoPart * form.norm() * course.norm())
-      return false;
-  }
-  if (count != 1 || (kind == Kind::kNeither && name.flank == FlankChoice::kBoth)) return false;
-  const double now = fit.residual_square(), none = fit_of(rest)->residual_square() - now;
-  const MostLeft most{now + kOnTheGrid * none, now + kInPlace * none + kDenied};
-  const auto says_both = [&](const std::vector<Effect>& beside, const std::vector<Effect>& forms) {
-    const std::vector<Effect> with = with_best_form(beside, forms, most);
-    return !with.empty() && !is_longer_than_the_flank(geometry_, with.back(), face) &&
-           PointFit(geometry_, table_, patches_, with).residual_square() < now + kDenied;
-  };
-  const int along = face ? 1 : 0;
-  std::vector<Effect> forms = forms_along(geometry_, along, name.flank, true);
-  if (kind == Kind::kOpposite)
-    for (Effect& form : forms) form.shape.push_back(1.0);
-  for (Effect& step : steps_along(geometry_, along, name.flank)) {
-    step.shape.back() = kind == Kind::kOpposite ? 1.0 : 0.0;
-    forms.push_back(std::move(step));
-  }
-  std::stable_sort(forms.begin(), forms.end(),
-                   [](const Effect& a, const Effect& b) { return a.family->id < b.family->id; });
-  if (says_both(rest, forms)) return false;
-  if (kind != Kind::kOpposite) return !says_both(rest, long_waves(geometry_, along, name.flank));
-  const std::vector<Effect> waves = long_waves(geometry_, along, FlankChoice::kRight);
-  return std::none_of(waves.begin(), waves.end(), [&](const Effect& wave) {
-    std::vector<Effect> beside = rest;
-    beside.push_back(wave);
-    return says_both(beside, {{wave.family, FlankChoice::kLeft, wave.shape}});
-  });
-}
-
 /// A name that is a part of one odd form, and no cause of its own, is told as a form.
 void PartLoop::tell_parts_of_a_form() {
   drop_echoes_of_forms();
@@ -376,6 +143,7 @@ void PartLoop::tell_parts_of_a_form() {
   tell_forms_of_sectors();
   tell_one_flank_as_two_names_of_all();
   tell_as_one_form();
+  join_flanks();
   tell_parts_beside_forms();
   tell_parts_of_a_sector();
   tell_means_of_odd_forms();
@@ -421,7 +189,9 @@ void PartLoop::tell_parts_beside_forms() {
     if (is_form(effects_[e])) continue;
     const int at = own++;
     const EffectFamily* form = form_instead(e);
-    if (form == nullptr || is_wave_around(effects_[e]) || stands_beside_forms(fit, e)) continue;
+    if (form == nullptr || is_wave_around(effects_[e]) || is_level(geometry_, fit, e) ||
+        stands_beside_forms(fit, e))
+      continue;
     bool part = false;
     if (effects_[e].family->local) {
       const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
@@ -455,27 +225,33 @@ void PartLoop::tell_parts_of_a_sector() {
   };
   if (std::none_of(effects_.begin(), effects_.end(), is_sector)) return;
   const auto fit = fit_of(effects_);
-  std::array<double, 2> around_um{};  // of what differs around the gear, over profile and face
-  for (std::size_t e = 0; e < effects_.size(); ++e) {
-    const Effect& effect = effects_[e];
-    const bool sector = is_sector(effect);
-    if (!effect.is_term() || !(sector || is_wave_around(effect))) continue;
-    const NeedsToBeSeen needs = effect.needs();
-    const double size_um = fit->effect_size_um(static_cast<int>(e));
-    if (sector ? effect.shape[2] > 0.0 : needs.along_profile)
-      around_um[0] = std::hypot(around_um[0], size_um);
-    if (sector ? effect.shape[3] > 0.0 : needs.along_face)
-      around_um[1] = std::hypot(around_um[1], size_um);
-  }
+  // What differs around the gear along what a name does: equal slopes are no part of opposite ones.
+  const auto around_um = [&](const Eigen::VectorXd& course, bool face) {
+    double sum_um = 0.0;
+    for (std::size_t e = 0; e < effects_.size(); ++e) {
+      const Effect& effect = effects_[e];
+      const bool sector = is_sector(effect);
+      if (!effect.is_term() || !(sector || is_wave_around(effect))) continue;
+      const NeedsToBeSeen needs = effect.needs();
+      const bool runs = sector ? effect.shape[face ? 3 : 2] > 0.0
+                               : (face ? needs.along_face : needs.along_profile);
+      if (runs && changes_along(geometry_, *fit, e, course, face))
+        sum_um = std::hypot(sum_um, fit->effect_size_um(static_cast<int>(e)));
+    }
+    return sum_um;
+  };
   for (std::size_t e = 0; e < effects_.size(); ++e) {
     const EffectFamily* form = form_instead(e);
     if (form == nullptr || effects_[e].family->local || is_wave_around(effects_[e])) continue;
-    for (const bool face : {false, true})
-      if (course_of(geometry_, *fit, e, face).norm() > 0.0 &&
-          kShare * fit->effect_size_um(static_cast<int>(e)) < around_um[face ? 1 : 0]) {
+    for (const bool face : {false, true}) {
+      const Eigen::VectorXd course = course_of(geometry_, *fit, e, face);
+      if (course.norm() > 0.0 &&
+          kShare * fit->effect_size_um(static_cast<int>(e)) < around_um(course, face) &&
+          !flank_that_shows(*fit, e, face)) {
         effects_[e].family = form;
         break;
       }
+    }
   }
 }
 
@@ -512,13 +288,15 @@ void PartLoop::tell_imitations() {
   std::set<std::size_t> told;
   for (const bool face : {false, true}) {
     std::vector<std::pair<std::size_t, Eigen::VectorXd>> names;
+    std::vector<std::optional<int>> shown_by;  // the flank to ask, where one shows it alone
     Eigen::VectorXd total = forms[face ? 1 : 0];
     for (std::size_t e = 0; e < effects_.size(); ++e) {
       const Effect& effect = effects_[e];
       if (form_instead(e) == nullptr || effect.family->local || effect.columns() != 1 ||
-          stands_beside_forms(*fit, e))
+          stands_on_every_flank(*fit, e))
         continue;
       names.emplace_back(e, course_of(geometry_, *fit, e, face));
+      shown_by.push_back(flank_that_shows(*fit, e, face));
       total += names.back().second;
     }
     // What is equal on both flanks and what is opposite on them are two things, unless together
@@ -529,13 +307,16 @@ void PartLoop::tell_imitations() {
     for (const Kind kind : kinds)
       for (const int flank : {0, 1}) {
         std::vector<NamedPart> parts;
-        for (const auto& [e, course] : names)
+        Eigen::VectorXd form = part_of_kind(forms[face ? 1 : 0], kind);
+        for (std::size_t i = 0; i < names.size(); ++i) {
+          const auto& [e, course] = names[i];
+          if (shown_by[i] && *shown_by[i] != flank) continue;
+          if (shown_by[i]) form.segment(flank * kPlaces, kPlaces).setZero();
           if (kind == Kind::kNeither || kind_of(course) == kind ||
               kind_of(course) == Kind::kNeither)
             add_part(parts, e, course.segment(flank * kPlaces, kPlaces));
-        told.merge(
-            imitations(std::move(parts),
-                       part_of_kind(forms[face ? 1 : 0], kind).segment(flank * kPlaces, kPlaces)));
+        }
+        told.merge(imitations(std::move(parts), form.segment(flank * kPlaces, kPlaces)));
       }
   }
   for (const std::size_t e : told) effects_[e].family = form_instead(e);

@@ -458,7 +458,10 @@ void PartLoop::tell_means_of_odd_forms() {
     }
   }
   for (const auto& [e, field] : names) {
-    const Eigen::VectorXd name = field.col(0);
+    // Its course: how high the teeth stand says nothing of it.
+    FlankField course = field.col(0);
+    take_off_heights(course);
+    const Eigen::VectorXd name = course;
     around.orders.clear();
     around.is_no_wave = false;
     for (std::size_t other = 0; other < effects_.size(); ++other) {

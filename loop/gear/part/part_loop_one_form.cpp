@@ -60,16 +60,53 @@ FlankCells cells_for(const FlankGeometry& geometry, const std::vector<Effect>& e
   return profile ? FlankCells{kAlong, 1} : FlankCells{1, kAlong};
 }
 
+/// An S over all of the profile (0) or the face (1).
+Effect s_over(int face, FlankChoice flank) {
+  Effect s_shape = slope_over(face, flank);
+  for (const std::size_t along : {0, 1}) s_shape.shape[along] *= 3.0;
+  return s_shape;
+}
+
+/// Forms along the profile (0) or the face (1), and an S.
+std::vector<Effect> forms_and_s_along(const FlankGeometry& geometry, int face, FlankChoice flank) {
+  std::vector<Effect> forms = forms_along(geometry, face, flank, true);
+  forms.push_back(s_over(face, flank));
+  return forms;
+}
+
+/// True of what dies away over nearly the whole flank beside a slope: a slope and a bow, told
+/// another way.
+bool is_slope_beside_slope(const FlankGeometry& geometry, const std::vector<Effect>& with) {
+  constexpr double kNearlyAll = 0.7;
+  const Effect& rise = with.back();
+  if (rise.family != find_family("unnamed_rise")) return false;
+  const bool face = rise.shape[0] != 0.0;
+  const double range_mm =
+      face ? geometry.face_width_mm()
+           : std::abs(geometry.tip_form_roll_mm() - geometry.root_form_roll_mm());
+  return rise.shape[1] > kNearlyAll * range_mm &&
+         std::any_of(with.begin(), with.end() - 1, [&](const Effect& e) {
+           return is_straight(geometry, e) &&
+                  runs_of(geometry, e) == (face ? Runs::kOverFace : Runs::kOverProfile);
+         });
+}
+
 }  // namespace
 
-/// The form that leaves least in place of the last effect, first among those of its family by
-/// trial, then beside the others. Empty where all leave too much.
+/// The form that leaves least in place of the last effect: of each family the best by trial, of the
+/// best of these each in its place, then beside the others. Empty where all leave too much.
 std::vector<Effect> PartLoop::with_best_form(std::vector<Effect> rest,
                                              const std::vector<Effect>& forms,
                                              const MostLeft& most) const {
+  // A kink is nearer to a rise than that is at its first width.
+  constexpr std::size_t kFamilies = 3;
+  constexpr double kClearly = 25.0;  // chi-square
   const std::size_t at = rest.size();
-  std::vector<Effect> best;
-  double least = most.on_the_grid;
+  struct Best {
+    double square = 0.0;
+    Effect form;
+  };
+  std::vector<Best> best;
   rest.emplace_back();
   for (std::size_t first = 0; first < forms.size();) {
     const EffectFamily* family = forms[first].family;
@@ -80,25 +117,45 @@ std::vector<Effect> PartLoop::with_best_form(std::vector<Effect> rest,
     rest.back() = forms[first];
     const TrialFit fit(geometry_, table_, patches_, rest, 1, nullptr, cells_for(geometry_, rest));
     const std::vector<TrialFit::Trial> trials = fit.with_shapes(at, shapes, 1e300);
+    Best own{.square = most.on_the_grid};
     for (std::size_t i = 0; i < shapes.size(); ++i) {
-      if (trials[i].retained < kToldApart || !(trials[i].square < least)) continue;
-      least = trials[i].square;
-      best = rest;
-      best.back().shape = shapes[i];
+      if (trials[i].retained < kToldApart || !(trials[i].square < own.square)) continue;
+      own = {trials[i].square, forms[first]};
+      own.form.shape = shapes[i];
     }
+    if (own.form.family != nullptr) best.push_back(std::move(own));
     first = next;
   }
-  if (best.empty()) return best;
-  const FlankCells cells = cells_for(geometry_, best);
-  if (cells.profile > 0 && best.back().family->nearby && !best.back().family->shape_is_continuous) {
-    const TrialFit fit(geometry_, table_, patches_, best, 1, nullptr, cells);
-    if (move_alone(geometry_, fit, at, best.back().shape) > most.in_place) return {};
-  }
-  if (best.back().family->shape_is_continuous)
-    refine_shapes(geometry_, table_, patches_, best, at);
+  if (best.empty()) return {};
+  std::stable_sort(best.begin(), best.end(),
+                   [](const Best& a, const Best& b) { return a.square < b.square; });
+  best.resize(std::min(best.size(), kFamilies));
+  const auto moves = [](const Effect& form) {
+    return form.family->nearby && !form.family->shape_is_continuous;
+  };
+  const bool in_cells = [&] {
+    rest.back() = best.front().form;
+    return cells_for(geometry_, rest).profile > 0;
+  }();
+  if (in_cells || (best.size() > 1 && table_->points_mm.empty()))
+    for (Best& one : best) {
+      if (!moves(one.form)) continue;
+      rest.back() = one.form;
+      const FlankCells cells = cells_for(geometry_, rest);
+      const TrialFit fit(geometry_, table_, patches_, rest, 1, nullptr, cells);
+      one.square = move_alone(geometry_, fit, at, one.form.shape);
+    }
+  std::size_t chosen = 0;
+  for (std::size_t i = 1; i < best.size(); ++i)
+    if (best[i].square < best[chosen].square - kClearly) chosen = i;
+  const Best& least = best[chosen];
+  if (in_cells && moves(least.form) && least.square > most.in_place) return {};
+  rest.back() = least.form;
+  if (rest.back().family->shape_is_continuous)
+    refine_shapes(geometry_, table_, patches_, rest, at);
   else
-    refine_nearby(geometry_, table_, patches_, best);
-  return best;
+    refine_nearby(geometry_, table_, patches_, rest);
+  return rest;
 }
 
 /// All others with one of the forms, the last, and what is put beside it in place of these effects:
@@ -132,9 +189,23 @@ std::vector<Effect> PartLoop::one_form_for(const std::vector<std::size_t>& these
   const auto most = [&](double share) {
     return now + kValue * values_of(own, true) + (1.0 - share) * std::max(0.0, none);
   };
-  const std::vector<Effect> with =
+  std::vector<Effect> with =
       with_best_form(rest, tried, {.on_the_grid = most(kOnTheGrid), .in_place = most(kInPlace)});
-  if (with.empty()) return {};
+  if (with.empty() || (own.size() == 1 && with.back() == own.front()) ||
+      is_slope_beside_slope(geometry_, with))
+    return {};
+  // A name with a place, found beside other pieces, moves where these do not hold it.
+  const Runs runs = runs_of(geometry_, with.back(), Flanks::kOfEither);
+  if (std::any_of(with.begin() + static_cast<std::ptrdiff_t>(first_told_here()), with.end() - 1,
+                  [&](const Effect& e) {
+                    return e.family->named && e.family->shape_is_continuous &&
+                           !e.family->shape_is_step && runs_of(geometry_, e) == runs;
+                  }))
+    refine_shapes(geometry_, table_, patches_, with, first_told_here());
+  if (std::any_of(beside.begin(), beside.end(), [](const Effect& e) {
+        return e.family->nearby && !e.family->shape_is_continuous;
+      }))
+    refine_nearby(geometry_, table_, patches_, with);
   if (with.back().family->named &&
       !is_possible(geometry_, *fit_of(with), static_cast<int>(with.size()) - 1))
     return {};
@@ -231,17 +302,20 @@ bool PartLoop::tell_as_form_beside_slope(const std::vector<std::size_t>& all, in
     if (!effects_[e].family->named || !is_straight(geometry_, effects_[e])) curved.push_back(e);
   }
   if (curved.empty() || values_of(own, true) < kValuesOfBoth) return false;
-  const std::vector<Effect> forms = forms_along(geometry_, face, flank, true);
-  if (curved.size() < all.size()) return put_one_form_for(curved, forms);
-  const Runs runs = face == 0 ? Runs::kOverProfile : Runs::kOverFace;
+  const std::vector<Effect> forms = forms_and_s_along(geometry_, face, flank);
+  if (curved.size() < all.size() && put_one_form_for(curved, forms)) return true;
+  for (const std::size_t kept : curved) {
+    std::vector<std::size_t> others = all;
+    std::erase(others, kept);
+    if (effects_[kept].family->named && !others.empty() && put_one_form_for(others, forms))
+      return true;
+  }
+  if (curved.size() < all.size()) return false;
   for (const bool straight : {true, false})
-    for (std::size_t c = 0; c < candidates_.size(); ++c) {
-      const Effect& name = candidates_[c];
-      if (name.family->named && !unseen_[c] && name.flank == flank && name.shape.empty() &&
-          is_straight(geometry_, name) == straight && runs_of(geometry_, name) == runs &&
+    for (const Effect& name : names_along(face))
+      if (name.flank == flank && is_straight(geometry_, name) == straight &&
           put_one_form_for(all, forms, {name}))
         return true;
-    }
   return false;
 }
 
@@ -259,7 +333,7 @@ bool PartLoop::tell_as_form_of_other_flanks(int face) {
   constexpr int kFewestValues = 3, kValuesOfWaves = 6;
   const Runs runs = face == 0 ? Runs::kOverProfile : Runs::kOverFace;
   std::vector<std::size_t> all, levels;
-  bool one_flank = false, both = false;
+  bool one_flank = false, both = false, equal = false;
   for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
     const Runs own = runs_of(geometry_, effects_[e], Flanks::kOfEither);
     const bool on_one = effects_[e].flank != FlankChoice::kBoth;
@@ -267,8 +341,12 @@ bool PartLoop::tell_as_form_of_other_flanks(int face) {
     if (own != runs) continue;
     all.push_back(e);
     one_flank = one_flank || on_one;
-    both = both || (!on_one && runs_of(geometry_, effects_[e]) == Runs::kOtherwise);
+    const bool opposite = !on_one && runs_of(geometry_, effects_[e]) == Runs::kOtherwise;
+    both = both || opposite;
+    equal = equal || !(on_one || opposite);
   }
+  // What is equal on both flanks and what is opposite on them may leave one of them alone.
+  one_flank = one_flank || (both && equal);
   std::vector<Effect> own;
   for (const std::size_t e : all) own.push_back(effects_[e]);
   if (all.size() < 2 || !(one_flank || both) || values_of(own, true) < kFewestValues) return false;
@@ -291,20 +369,16 @@ bool PartLoop::tell_as_form_of_other_flanks(int face) {
   for (const std::vector<std::size_t>& these : sets) {
     if (put_one_form_for(these, opposite)) return true;
     for (const FlankChoice flank : {FlankChoice::kLeft, FlankChoice::kRight})
-      if (one_flank && put_one_form_for(these, forms_along(geometry_, face, flank, true)))
+      if (one_flank && put_one_form_for(these, forms_and_s_along(geometry_, face, flank)))
         return true;
   }
   // Beside a name that these pieces have taken up.
-  for (std::size_t c = 0; c < candidates_.size(); ++c) {
-    const Effect& name = candidates_[c];
-    if (!name.family->named || unseen_[c] || name.flank != FlankChoice::kBoth ||
-        !name.shape.empty() || name.columns() != 1 ||
-        runs_of(geometry_, name, Flanks::kOfEither) != runs ||
-        std::find(own.begin(), own.end(), name) != own.end())
+  for (const Effect& name : names_along(face, true)) {
+    if (name.flank != FlankChoice::kBoth || std::find(own.begin(), own.end(), name) != own.end())
       continue;
     for (const std::vector<std::size_t>& these : sets)
       for (const FlankChoice flank : {FlankChoice::kLeft, FlankChoice::kRight})
-        if (one_flank && put_one_form_for(these, forms_along(geometry_, face, flank, true), {name}))
+        if (one_flank && put_one_form_for(these, forms_and_s_along(geometry_, face, flank), {name}))
           return true;
   }
   if (values_of(own, true) <= kValuesOfWaves) return false;
@@ -312,6 +386,45 @@ bool PartLoop::tell_as_form_of_other_flanks(int face) {
     if (put_one_form_for(all, {{right.family, FlankChoice::kLeft, right.shape}}, {right}))
       return true;
   return false;
+}
+
+/// A name with a place beside a slope that is opposite on the two flanks, or beside an S, for all
+/// that runs along the profile (0) or the face (1).
+bool PartLoop::tell_as_name_with_a_place(int face) {
+  constexpr int kFewestValues = 4;
+  const Runs runs = face == 0 ? Runs::kOverProfile : Runs::kOverFace;
+  std::vector<std::size_t> all;
+  std::vector<Effect> own;
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e)
+    if (runs_of(geometry_, effects_[e], Flanks::kOfEither) == runs) {
+      all.push_back(e);
+      own.push_back(effects_[e]);
+    }
+  if (all.size() < 2 || values_of(own, true) < kFewestValues) return false;
+  std::vector<Effect> names = names_with_shapes(geometry_, own);
+  // What undoes itself may be a name that is not among them beside a rise at an end.
+  const bool undo = undo_each_other(geometry_, *fit_of(effects_), all);
+  for (std::size_t c = 0; undo && c < candidates_.size(); ++c)
+    if (const Effect& name = candidates_[c];
+        name.family->named && name.family->shape_is_continuous && !name.family->shape_is_step &&
+        !unseen_[c] && name.shape.size() == 1 && runs_of(geometry_, name) == runs)
+      names.push_back(name);
+  if (names.empty()) return false;
+  for (Effect& name : names) name.flank = FlankChoice::kBoth;
+  std::stable_sort(names.begin(), names.end(),
+                   [](const Effect& a, const Effect& b) { return a.family->id < b.family->id; });
+  Effect turned = slope_over(face, FlankChoice::kBoth);
+  turned.shape.back() = 1.0;
+  std::vector<Effect> beside{turned};
+  for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight})
+    beside.push_back(s_over(face, flank));
+  for (Effect& form : forms_along(geometry_, face, FlankChoice::kBoth, false))
+    if (undo && form.family == find_family("unnamed_rise") && form.shape[2] != 0.0)
+      beside.push_back(std::move(form));
+  return std::any_of(beside.begin(), beside.end(), [&](const Effect& form) {
+    return std::find(own.begin(), own.end(), form) == own.end() &&
+           put_one_form_for(all, names, {form});
+  });
 }
 
 /// A hollow of every flank, for all that is the same on every tooth: waves across the flanks of
@@ -405,7 +518,8 @@ void PartLoop::tell_as_one_form() {
     if (tell_as_sector() || tell_as_drift() || tell_as_drift_aside() ||
         tell_as_swellings_at_end() || tell_as_repeating() || tell_as_field() || tell_as_facing() ||
         tell_as_product() || tell_as_corner() || tell_as_dish_of_all_flanks() ||
-        tell_as_alternating_wave() || tell_as_walking_waves())
+        tell_as_alternating_wave() || tell_as_walking_waves() || tell_as_name_with_a_place(0) ||
+        tell_as_name_with_a_place(1))
       return true;
     for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
       std::array<std::vector<std::size_t>, 2> along;  // profile, face
@@ -457,99 +571,6 @@ void PartLoop::tell_as_one_form() {
   int taken = 0;
   while (taken < kMost && once()) ++taken;
   if (taken > 0) drop_idle_beside_one_form();
-}
-
-/// A kink beside a slope says the same bent to either side: it runs over the part that is clearly
-/// the shorter one, so that the slope is that of the longer one.
-void PartLoop::turn_kinks_beside_slopes() {
-  constexpr double kClearly = 0.1;
-  const EffectFamily* kinks = find_family("unnamed_kink");
-  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
-    Effect& kink = effects_[e];
-    if (kink.family != kinks || kink.shape[2] == 0.0) continue;
-    const Runs runs = kink.shape[0] != 0.0 ? Runs::kOverFace : Runs::kOverProfile;
-    const bool beside_slope =
-        std::any_of(effects_.begin(), effects_.end(), [&](const Effect& other) {
-          return (other.flank == kink.flank || other.flank == FlankChoice::kBoth) &&
-                 is_straight(geometry_, other) && runs_of(geometry_, other) == runs;
-        });
-    if (!beside_slope) continue;
-    const double low = kink.shape[0] != 0.0 ? 0.0 : geometry_.root_form_roll_mm(),
-                 high = kink.shape[0] != 0.0 ? geometry_.face_width_mm()
-                                             : geometry_.tip_form_roll_mm(),
-                 at = kink.shape[0] != 0.0 ? kink.shape[1]
-                                           : geometry_.roll_at_radius_mm(0.5 * kink.shape[1]);
-    const double share = (at - low) / (high - low);
-    if (std::abs(share - 0.5) > kClearly) kink.shape[2] = share < 0.5 ? -1.0 : 1.0;
-  }
-}
-
-/// A form with a place whose whole course one name with a place follows as well: a curve towards
-/// the tip beside a slope is a relief.
-void PartLoop::name_forms_beside_names() {
-  constexpr double kNoWorse = 1.0;  // chi-square
-  bool named = false;
-  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
-    const Effect form = effects_[e];
-    if (!form.is_term() || !form.family->is_like_many || form.columns() != 1) continue;
-    const double as_form = fit_of(effects_)->residual_square();
-    std::vector<Effect> names;
-    for (std::size_t c = 0; c < candidates_.size(); ++c) {
-      const EffectFamily& family = *candidates_[c].family;
-      if (family.named && family.shape_is_continuous && !family.shape_is_step && !unseen_[c] &&
-          candidates_[c].shape.size() == 1 && candidates_[c].flank == form.flank &&
-          runs_of(geometry_, candidates_[c]) == runs_of(geometry_, form))
-        names.push_back(candidates_[c]);
-    }
-    if (names.empty()) continue;
-    std::vector<Effect> rest = effects_;
-    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(e));
-    std::vector<Effect> with = with_best_form(rest, names, {});
-    if (with.empty()) continue;
-    // Where it stood: what was given stays in front.
-    std::rotate(with.begin() + static_cast<std::ptrdiff_t>(e), with.end() - 1, with.end());
-    const auto fit = fit_of(with);
-    if (fit->residual_square() > as_form + kNoWorse ||
-        !is_possible(geometry_, *fit, static_cast<int>(e)))
-      continue;
-    std::swap(effects_, with);
-    if (stands_beside_forms(*fit, e))
-      named = true;
-    else
-      std::swap(effects_, with);
-  }
-  if (named) join_flanks();
-}
-
-/// A slope or a bow that stands beside forms which leave most of the flank alone, or run the other
-/// way, gets its name where the data do not deny it.
-void PartLoop::name_terms_beside_forms() {
-  constexpr double kDenied = 9.0;  // chi-square
-  turn_kinks_beside_slopes();
-  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
-    const Effect term = effects_[e];
-    if (term.family->named || !term.family->form_word.empty() || term.columns() != 1) continue;
-    // Of names that run alike here, the one that such data are told by.
-    const auto preference = [&](const Effect& name) {
-      return name.family->preference +
-             (table_->points_mm.empty() ? name.family->penalty_of_traces : 0);
-    };
-    const Effect* likeliest = nullptr;
-    for (std::size_t c = 0; c < candidates_.size(); ++c) {
-      const Effect& name = candidates_[c];
-      if (name.family->named && !unseen_[c] && name.flank == term.flank && name.shape.empty() &&
-          run_alike(geometry_, name, term) &&
-          (likeliest == nullptr || preference(name) < preference(*likeliest)))
-        likeliest = &name;
-    }
-    if (likeliest == nullptr) continue;
-    const double as_term = fit_of(effects_)->residual_square();
-    effects_[e] = *likeliest;
-    const auto fit = fit_of(effects_);
-    if (fit->residual_square() > as_term + kDenied || !stands_beside_forms(*fit, e) ||
-        !is_possible(geometry_, *fit, static_cast<int>(e)))
-      effects_[e] = term;
-  }
 }
 
 /// What stood beside several effects and is nothing beside the one form.

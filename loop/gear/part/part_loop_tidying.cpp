@@ -169,13 +169,21 @@ void PartLoop::join_flanks() {
 /// the left flanks are opposite slopes.
 void PartLoop::tell_two_names_as_one() {
   constexpr double kNothing = 9.0;  // chi-square
+  const Effect level{find_family("unnamed"), FlankChoice::kBoth, {0.0, 0.0, 0.0, 0.0}};
+  const bool shows_heights = is_told_apart(level, {});
+  const auto over = [&](const Effect& effect) {
+    Eigen::VectorXd field = over_a_tooth(geometry_, effect);
+    const Eigen::Index flank = field.size() / 2;
+    for (const Eigen::Index first : {Eigen::Index{0}, flank})
+      if (!shows_heights) field.segment(first, flank).array() -= field.segment(first, flank).mean();
+    return field;
+  };
   const auto one_in_place_of = [&](std::size_t a, std::size_t b) {
-    const Eigen::VectorXd of_a = over_a_tooth(geometry_, effects_[a]),
-                          of_b = over_a_tooth(geometry_, effects_[b]);
+    const Eigen::VectorXd of_a = over(effects_[a]), of_b = over(effects_[b]);
     for (std::size_t c = 0; c < candidates_.size(); ++c) {
       const Effect& third = candidates_[c];
       if (unseen_[c] || !is_name_of_all_teeth(third) || !third.shape.empty() ||
-          !is_in_the_span(over_a_tooth(geometry_, third), of_a, of_b))
+          !is_in_the_span(over(third), of_a, of_b))
         continue;
       std::vector<Effect> with = effects_;
       with[a] = third;
@@ -374,20 +382,24 @@ bool PartLoop::adopt_if_simpler(Options options, int least_spared) {
   if (names.effects_.empty()) return false;
   names.add_names(values_of(effects_, true) - least_spared);
   names.tell_parts_of_a_form();
-  if (std::any_of(names.effects_.begin(), names.effects_.end(),
-                  [](const Effect& e) { return e.is_term(); }))
+  // Forms may stand beside them where that says more with fewer values and has more names.
+  const auto is_term = [](const Effect& e) { return e.is_term(); };
+  const auto is_named = [](const Effect& e) { return e.family->named; };
+  const bool with_forms = std::any_of(names.effects_.begin(), names.effects_.end(), is_term);
+  if (with_forms && std::count_if(names.effects_.begin(), names.effects_.end(), is_named) <=
+                        std::count_if(effects_.begin(), effects_.end(), is_named))
     return false;
   // A kink has a place; three names that follow it have one each, and a width.
   const bool beside_forms =
       std::any_of(effects_.begin(), effects_.end(), [](const Effect& e) { return e.is_term(); });
   const int spared = values_of(effects_, beside_forms) - values_of(names.effects_, beside_forms);
-  if (spared < least_spared) return false;
+  if (spared < (with_forms ? std::max(1, least_spared) : least_spared)) return false;
   const auto own = fit_of(effects_), other = names.fit_of(names.effects_);
   const auto before = own->errors(std::vector<bool>(effects_.size(), true)),
              after = other->errors(std::vector<bool>(names.effects_.size(), true));
   const auto n = static_cast<double>(own->observations());
   const double loss = n * (std::pow(after.rms_um / before.rms_um, 2) - 1.0);
-  if (loss > kNothing + kByChance * spared + kNoLoss * n) return false;
+  if (loss > (with_forms ? 0.0 : kNothing + kByChance * spared + kNoLoss * n)) return false;
   names.remainder_ = names.remainder_of(names.effects_, RemainderOf::kAll);
   if (names.structure_is_left()) return false;
   take_over(names);
