@@ -94,8 +94,10 @@ bool PartLoop::tell_as_facing() {
   std::sort(all.begin(), all.end());
   constexpr std::size_t kFewest = 3;
   std::vector<std::vector<std::size_t>> sets;
-  if (waves.size() >= kFewest) sets.push_back(all);
-  if (waves.size() >= kFewest && !levels.empty()) sets.push_back(waves);
+  // (traces and an index at odds over an eccentricity look like one side as well)
+  const bool scanned = !table_->points_mm.empty();
+  if (scanned && waves.size() >= kFewest) sets.push_back(all);
+  if (scanned && waves.size() >= kFewest && !levels.empty()) sets.push_back(waves);
   std::vector<Effect> forms;
   for (double towards_deg = 0.0; towards_deg < 360.0; towards_deg += kStep_deg)
     for (const double power : {1.0, 2.0})
