@@ -86,9 +86,13 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
   const auto none = loop.plain_fit()->errors({});
   const auto all = fit.errors(std::vector<bool>(loop.effects().size(), true));
   result.before = {none.rms_um, none.held_out_rms_um, 0.0};
+  // One form of either flank: more of them would follow held-out values whatever these are.
+  constexpr std::size_t kMostFittedThere = 2;
   const PointFit::HeldOutBesideLocal held_out = fit.held_out_beside_local();
-  result.after = {all.rms_um, held_out.rms_um, 0.0};
-  if (!held_out.fitted_there.empty())
+  const bool fitted_there =
+      !held_out.fitted_there.empty() && held_out.fitted_there.size() <= kMostFittedThere;
+  result.after = {all.rms_um, fitted_there ? held_out.rms_um : all.held_out_rms_um, 0.0};
+  if (fitted_there)
     result.notes.push_back(
         "the error on held-out data is counted beside what held-out values alone show, such as a "
         "form of one held-out tooth: no other value can foretell it");

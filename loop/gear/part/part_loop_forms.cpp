@@ -141,7 +141,6 @@ void PartLoop::tell_parts_of_a_form() {
   tell_forms_of_some_teeth();
   tell_forms_of_teeth();
   tell_forms_of_sectors();
-  tell_one_flank_as_two_names_of_all();
   tell_as_one_form();
   join_flanks();
   tell_parts_beside_forms();
