@@ -18,7 +18,7 @@ namespace trueflank::loop {
 /// crumb, both kinds of slope of all flanks, a lean and a taper, are told. That is as many values
 /// and the same sum, and causes that act on all flanks are the usual ones.
 void PartLoop::tell_one_flank_as_two_names_of_all() {
-  constexpr double kCrumb = 0.05;
+  constexpr double kCrumb = 0.02;
   const auto is_plain = [](const Effect& e) { return is_name_of_all_teeth(e) && e.shape.empty(); };
   std::vector<std::size_t> whole;  // candidates
   for (std::size_t c = 0; c < candidates_.size(); ++c)
