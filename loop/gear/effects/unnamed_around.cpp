@@ -321,7 +321,7 @@ void move_tooth(const FlankGeometry& g, double teeth, double& tooth) {
   tooth = std::fmod(tooth - 1.0 + teeth + g.teeth(), g.teeth()) + 1.0;
 }
 
-/// "tooth 5 to 9", once around.
+/// "teeth 5 to 9", once around: up to the one before `after`.
 std::string from_to(const FlankGeometry& g, double first, double after) {
   double last = after;
   move_tooth(g, -1.0, last);

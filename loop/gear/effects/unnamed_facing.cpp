@@ -3,6 +3,7 @@
 #include <cmath>
 #include <complex>
 #include <string>
+#include <vector>
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"

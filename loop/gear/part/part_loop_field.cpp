@@ -89,28 +89,29 @@ bool PartLoop::tell_as_facing() {
     else if (runs_of(geometry_, effect) == Runs::kNowhere)
       levels.push_back(e);
   }
-  std::vector<std::size_t> all = waves;
-  all.insert(all.end(), levels.begin(), levels.end());
-  std::sort(all.begin(), all.end());
-  constexpr std::size_t kFewest = 3;
-  std::vector<std::vector<std::size_t>> sets;
   // (traces and an index at odds over an eccentricity look like one side as well)
-  const bool scanned = !table_->points_mm.empty();
-  if (scanned && waves.size() >= kFewest) sets.push_back(all);
-  if (scanned && waves.size() >= kFewest && !levels.empty()) sets.push_back(waves);
-  std::vector<Effect> forms;
-  for (double towards_deg = 0.0; towards_deg < 360.0; towards_deg += kStep_deg)
-    for (const double power : {1.0, 2.0})
-      forms.push_back(
-          {find_family("unnamed_facing_one_side"), FlankChoice::kBoth, {towards_deg, power}});
-  std::vector<std::vector<Effect>> besides{{}};
-  if (levels.empty())  // (a bow may have taken up a part of the mean)
-    besides.push_back({{find_family("unnamed"), FlankChoice::kBoth, {0.0, 0.0, 0.0, 0.0}}});
-  for (std::size_t c = 0; c < candidates_.size(); ++c)
-    if (moves_the_teeth(candidates_[c]) && !unseen_[c]) besides.push_back({candidates_[c]});
-  for (const std::vector<std::size_t>& set : sets)
-    for (const std::vector<Effect>& beside : besides)
-      if (put_one_form_for(set, forms, beside)) return true;
+  constexpr std::size_t kFewest = 3;
+  if (!table_->points_mm.empty() && waves.size() >= kFewest) {
+    std::vector<std::vector<std::size_t>> sets{waves};
+    if (!levels.empty()) {
+      sets.insert(sets.begin(), waves);
+      sets.front().insert(sets.front().end(), levels.begin(), levels.end());
+      std::sort(sets.front().begin(), sets.front().end());
+    }
+    std::vector<Effect> forms;
+    for (double towards_deg = 0.0; towards_deg < 360.0; towards_deg += kStep_deg)
+      for (const double power : {1.0, 2.0})
+        forms.push_back(
+            {find_family("unnamed_facing_one_side"), FlankChoice::kBoth, {towards_deg, power}});
+    std::vector<std::vector<Effect>> besides{{}};
+    if (levels.empty())  // (a bow may have taken up a part of the mean)
+      besides.push_back({{find_family("unnamed"), FlankChoice::kBoth, {0.0, 0.0, 0.0, 0.0}}});
+    for (std::size_t c = 0; c < candidates_.size(); ++c)
+      if (moves_the_teeth(candidates_[c]) && !unseen_[c]) besides.push_back({candidates_[c]});
+    for (const std::vector<std::size_t>& set : sets)
+      for (const std::vector<Effect>& beside : besides)
+        if (put_one_form_for(set, forms, beside)) return true;
+  }
   for (int k = 2; k <= kMostWaves; ++k) {
     std::vector<std::size_t> these;
     for (const std::size_t e : waves)

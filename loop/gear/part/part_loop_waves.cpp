@@ -80,6 +80,7 @@ bool PartLoop::tell_as_part_of_a_wave(const std::vector<std::size_t>& all, int f
   }
   const std::optional<double> wavelength_mm = largest_wavelength_mm(forms);
   if (!wavelength_mm) return false;
+  // (families stand in one vector, so their order here is that of the library)
   std::map<const EffectFamily*, std::vector<Effect>> parts;
   for (Effect& part : gear_effects::parts_of_waves(geometry_, face, flank, *wavelength_mm))
     parts[part.family].push_back(std::move(part));
@@ -187,7 +188,8 @@ void PartLoop::tell_waves_of_a_form() {
 /// Waves of one side, about alike over the flank, of orders beside each other are one whose periods
 /// a turn are no whole number.
 bool PartLoop::tell_as_walking_waves() {
-  constexpr double kAlike = 0.8;                           // waves
+  constexpr double kAlike = 0.8;                           // waves along the flank
+  constexpr double kBeside = 1.5;                          // periods a turn: the next whole number
   constexpr int kFewestTeeth = 8, kSeams = 16, kMore = 3;  // kMore: values
   const int z = geometry_.teeth();
   if (z < kFewestTeeth) return false;
@@ -218,7 +220,7 @@ bool PartLoop::tell_as_walking_waves() {
           continue;
         these.push_back(wave.effect);
         beside = beside || (wave.effect != most.effect &&
-                            std::abs(std::remainder(wave.order - most.order, z)) < 1.5);
+                            std::abs(std::remainder(wave.order - most.order, z)) < kBeside);
       }
     if (!beside) continue;
     these.erase(std::unique(these.begin(), these.end()), these.end());
