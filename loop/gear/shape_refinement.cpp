@@ -177,10 +177,9 @@ std::vector<Effect> stepped(const FlankGeometry& geometry, const TrialFit& fit, 
 
 }  // namespace
 
-TrialFit fit_to_refine(const FlankGeometry& geometry, const Observations& table,
-                       const Patches& patches, const std::vector<Effect>& effects,
-                       TriedColumns* tried) {
-  return {geometry, table, patches, effects, stride_for(table), tried};
+TrialFit fit_to_refine(const FlankGeometry& geometry, const SharedTable& table,
+                       const Patches& patches, const std::vector<Effect>& effects) {
+  return {geometry, table, patches, effects, stride_for(table)};
 }
 
 bool can_be_refined(const std::vector<Effect>& effects, std::size_t first) {
@@ -250,7 +249,7 @@ void refine_shapes(const FlankGeometry& geometry, std::size_t first, TrialFit& f
   }
 }
 
-bool refine_nearby(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
+bool refine_nearby(const FlankGeometry& geometry, const SharedTable& table, const Patches& patches,
                    std::vector<Effect>& effects) {
   if (std::none_of(effects.begin(), effects.end(),
                    [](const Effect& effect) { return static_cast<bool>(effect.family->nearby); }))
@@ -261,7 +260,7 @@ bool refine_nearby(const FlankGeometry& geometry, const Observations& table, con
   return moved;
 }
 
-void refine_shapes(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
+void refine_shapes(const FlankGeometry& geometry, const SharedTable& table, const Patches& patches,
                    std::vector<Effect>& effects, std::size_t first) {
   if (std::none_of(effects.begin() + static_cast<std::ptrdiff_t>(first), effects.end(),
                    [](const Effect& effect) {

@@ -9,9 +9,8 @@
 namespace trueflank::loop {
 
 /// The fit in which shapes are refined.
-[[nodiscard]] TrialFit fit_to_refine(const FlankGeometry& geometry, const Observations& table,
-                                     const Patches& patches, const std::vector<Effect>& effects,
-                                     TriedColumns* tried = nullptr);
+[[nodiscard]] TrialFit fit_to_refine(const FlankGeometry& geometry, const SharedTable& table,
+                                     const Patches& patches, const std::vector<Effect>& effects);
 /// True where any has a shape that moves: for refine_shapes from the first on, for refine_nearby any.
 [[nodiscard]] bool can_be_refined(const std::vector<Effect>& effects, std::size_t first);
 
@@ -19,8 +18,8 @@ namespace trueflank::loop {
 /// chosen on to the best fit: Gauss-Newton jointly with all coefficients, a step's height by trial.
 /// Those before the first stay as they are.
 void refine_shapes(const FlankGeometry& geometry, std::size_t first, TrialFit& fit);
-void refine_shapes(const FlankGeometry& geometry, const Observations& table,
-                   const Patches& patches, std::vector<Effect>& effects, std::size_t first = 0);
+void refine_shapes(const FlankGeometry& geometry, const SharedTable& table, const Patches& patches,
+                   std::vector<Effect>& effects, std::size_t first = 0);
 
 /// Least share of a column that must be left beside all others: two waves of nearly one length
 /// that fit with large sizes of opposite signs describe nothing.
@@ -30,8 +29,8 @@ inline constexpr double kToldApart = 0.1;
 /// (EffectFamily::nearby) that fit the single values better and are told apart from all others.
 /// True where any moved.
 bool refine_nearby(const FlankGeometry& geometry, TrialFit& fit);
-bool refine_nearby(const FlankGeometry& geometry, const Observations& table,
-                   const Patches& patches, std::vector<Effect>& effects);
+bool refine_nearby(const FlankGeometry& geometry, const SharedTable& table, const Patches& patches,
+                   std::vector<Effect>& effects);
 
 /// Uncertainty of a fit with what the shapes add to it.
 struct ShapeUncertainty {

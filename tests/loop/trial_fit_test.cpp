@@ -120,7 +120,7 @@ TEST_F(TrialFits, FormsTriedInCellsLeaveWhatTheyLeavePointByPoint) {
   const auto slow = exact.with_shapes(1, shapes, 1e300);
   const double taken = exact.residual_square() - slow[0].square;
   const auto most_off = [&](loop::FlankCells cells) {
-    const loop::TrialFit in_cells(geometry_, table_, patches_, effects, 1, nullptr, cells);
+    const loop::TrialFit in_cells(geometry_, table_, patches_, effects, 1, cells);
     // (what stands is exact)
     EXPECT_NEAR(in_cells.residual_square() / exact.residual_square(), 1.0, 1e-12);
     const auto quick = in_cells.with_shapes(1, shapes, 1e300);
@@ -135,24 +135,57 @@ TEST_F(TrialFits, FormsTriedInCellsLeaveWhatTheyLeavePointByPoint) {
   EXPECT_GT(most_off({1, 3}), 0.5);
 }
 
-TEST_F(TrialFits, ColumnsThatWereTriedAreThoseOfTheirEffectAndNoOther) {
-  loop::TriedColumns tried;
+TEST_F(TrialFits, ValuesThatAreKeptAreThoseOfTheirEffectAndNoOther) {
+  loop::SharedTable shared(table_);
   const std::vector<Effect> effects{wave(3.3), wave(1.7)};
-  loop::TrialFit knowing(geometry_, table_, patches_, effects, 1, &tried);
+  loop::TrialFit knowing(geometry_, shared, patches_, effects);
   const loop::TrialFit fresh(geometry_, table_, patches_, effects);
   const std::vector<loop::EffectShape> shapes{{1.0, 3.1}, {1.0, 3.2}};
   for (int turn = 0; turn < 2; ++turn) {  // the second time they are known
     const auto trials = knowing.with_shapes(0, shapes, 0.0), anew = fresh.with_shapes(0, shapes, 0.0);
     for (std::size_t i = 0; i < shapes.size(); ++i) EXPECT_EQ(trials[i].square, anew[i].square);
   }
-  ASSERT_NE(tried.find(wave(3.1)), nullptr);
-  EXPECT_EQ(*tried.find(wave(3.1)), fresh.columns_of(wave(3.1)));
-  EXPECT_EQ(tried.find(wave(3.15)), nullptr);
+  std::vector<std::uint32_t> rows;
+  for (std::size_t i = 0; i < table_.rows.size(); ++i)
+    if (patches_.patch_of_row[i] >= 0) rows.push_back(static_cast<std::uint32_t>(i));
+  const std::uint64_t all = loop::EffectValues::key_of(rows);
+  const loop::EffectValues& kept = shared.values();
+  ASSERT_NE(kept.find(wave(3.1), all), nullptr);
+  const Eigen::MatrixXd& values = *kept.find(wave(3.1), all);
+  ASSERT_EQ(values.rows(), static_cast<Eigen::Index>(rows.size()));
+  std::vector<double> one(8);
+  for (const std::size_t i : {std::size_t{0}, rows.size() / 2, rows.size() - 1}) {
+    wave(3.1).evaluate(geometry_, table_.place(table_.rows[rows[i]]), one.data());
+    for (Eigen::Index k = 0; k < values.cols(); ++k)
+      EXPECT_EQ(values(static_cast<Eigen::Index>(i), k), one[static_cast<std::size_t>(k)]);
+  }
+  EXPECT_EQ(kept.find(wave(3.15), all), nullptr);
   Effect on_one_flank = wave(3.1);
   on_one_flank.flank = loop::FlankChoice::kLeft;
-  EXPECT_EQ(tried.find(on_one_flank), nullptr);
+  EXPECT_EQ(kept.find(on_one_flank, all), nullptr);
+  rows.pop_back();
+  EXPECT_EQ(kept.find(wave(3.1), loop::EffectValues::key_of(rows)), nullptr);
   knowing.set_shapes({wave(3.2), wave(1.7)});
   EXPECT_NEAR(knowing.residual_square() / square({wave(3.2), wave(1.7)}), 1.0, 1e-9);
+  // Another who has the table keeps them; of a changed one they are forgotten.
+  loop::SharedTable moved = shared;
+  moved.own().places.front().roll_mm += 0.1;
+  EXPECT_EQ(moved.values().find(wave(3.1), all), nullptr);
+  EXPECT_NE(shared.values().find(wave(3.1), all), nullptr);
+}
+
+TEST(EffectValues, AreForgottenWhenTheyAreTooMany) {
+  loop::EffectValues kept;
+  const Effect effect{family("eccentricity"), loop::FlankChoice::kBoth, {}};
+  const auto values = std::make_shared<Eigen::MatrixXd>(Eigen::MatrixXd::Ones(40'000, 2));
+  for (std::uint64_t rows = 0; rows < 75; ++rows) kept.keep(effect, rows, values);
+  EXPECT_NE(kept.find(effect, 0), nullptr);
+  kept.keep(effect, 75, values);  // 6.08 million
+  EXPECT_EQ(kept.find(effect, 0), nullptr);
+  EXPECT_NE(kept.find(effect, 75), nullptr);
+  // One so large that few would have room is never kept.
+  kept.keep(effect, 76, std::make_shared<Eigen::MatrixXd>(Eigen::MatrixXd::Ones(50'000, 2)));
+  EXPECT_EQ(kept.find(effect, 76), nullptr);
 }
 
 TEST_F(TrialFits, OneFitKnowsTheSquareWithoutAnyOfItsEffects) {

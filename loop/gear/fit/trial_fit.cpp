@@ -25,33 +25,21 @@ double square_of(const Eigen::MatrixXd& gram, const Eigen::VectorXd& b) {
 
 }  // namespace
 
-const Eigen::MatrixXd* TriedColumns::find(const Effect& effect) const {
-  const auto found = std::find_if(tried_.begin(), tried_.end(),
-                                  [&](const Tried& tried) { return tried.effect == effect; });
-  return found == tried_.end() ? nullptr : &found->columns;
-}
-
-void TriedColumns::keep(const Effect& effect, const Eigen::MatrixXd& columns) {
-  constexpr Eigen::Index kMostValues = 6'000'000;
-  if (values_ + columns.size() > kMostValues || find(effect) != nullptr) return;
-  values_ += columns.size();
-  tried_.push_back({effect, columns});
-}
-
-TrialFit::TrialFit(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
-                   std::vector<Effect> effects, std::size_t stride, TriedColumns* tried,
-                   FlankCells cells)
-    : geometry_(geometry), table_(table), effects_(std::move(effects)), tried_(tried) {
+TrialFit::TrialFit(const FlankGeometry& geometry, const SharedTable& shared, const Patches& patches,
+                   std::vector<Effect> effects, std::size_t stride, FlankCells cells)
+    : geometry_(geometry), shared_(shared), table_(shared_), effects_(std::move(effects)) {
+  const Observations& table = table_;
   trace_weight_.assign(static_cast<std::size_t>(table.traces), 0.0);
   for (std::size_t i = 0; i < table.rows.size(); i += stride) {
     if (patches.patch_of_row[i] < 0) continue;
     const auto& patch = patches.patches[static_cast<std::size_t>(patches.patch_of_row[i])];
     const double weight = patch.weight / patch.count;
     const int trace = table.rows[i].trace;
-    row_numbers_.push_back(static_cast<std::uint32_t>(i));
+    all_rows_.rows.push_back(static_cast<std::uint32_t>(i));
     rows_.push_back({static_cast<std::uint32_t>(i), trace, std::sqrt(weight)});
     if (trace >= 0) trace_weight_[static_cast<std::size_t>(trace)] += weight;
   }
+  all_rows_.key = EffectValues::key_of(all_rows_.rows);
   find_alike(cells);
   const NuisanceColumns nuisance(geometry, table);
   Eigen::Index columns = nuisance.count();
@@ -99,12 +87,13 @@ void TrialFit::find_alike(FlankCells cells) {
   constexpr std::size_t kFewestOfAKind = 4;
   const bool scan = !table_.points_mm.empty();
   if (scan && cells.profile == 0) return;
-  AlikeRows alike = scan ? rows_of_cells(geometry_, table_, row_numbers_, cells)
-                         : alike_rows(table_, row_numbers_);
+  AlikeRows alike = scan ? rows_of_cells(geometry_, table_, all_rows_.rows, cells)
+                         : alike_rows(table_, all_rows_.rows);
   if (alike.first.size() * kFewestOfAKind > rows_.size()) return;
   kind_weight_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(alike.first.size()));
   for (std::size_t i = 0; i < rows_.size(); ++i)
     kind_weight_[static_cast<Eigen::Index>(alike.kind[i])] += rows_[i].root * rows_[i].root;
+  first_of_kinds_ = {alike.first, EffectValues::key_of(alike.first)};
   alike_ = std::move(alike);
   // Where kinds are few, their products less zeros are one matrix.
   constexpr std::size_t kWorthIt = 8;
@@ -144,20 +133,23 @@ void TrialFit::centre(Eigen::MatrixXd& columns) const {
 }
 
 /// As they are, at some rows of the table.
-Eigen::MatrixXd TrialFit::values_at(const Effect& effect,
-                                    const std::vector<std::uint32_t>& rows) const {
+EffectValues::Values TrialFit::values_at(const Effect& effect, const RowSet& at) const {
+  if (EffectValues::Values known = shared_.values().find(effect, at.key)) return known;
   const int count = effect.columns();
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()), count);
+  const auto values = std::make_shared<Eigen::MatrixXd>(
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(at.rows.size()), count));
+  Eigen::MatrixXd& columns = *values;
   double one[8];
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Observation& row = table_.rows[rows[i]];
+  for (std::size_t i = 0; i < at.rows.size(); ++i) {
+    const Observation& row = table_.rows[at.rows[i]];
     for (std::uint32_t p = 0; p < row.places; ++p) {
       effect.evaluate(geometry_, table_.places[row.first_place + p], one);
       for (int k = 0; k < count; ++k)
         columns(static_cast<Eigen::Index>(i), k) += row.weight * one[k];
     }
   }
-  return columns;
+  shared_.values().keep(effect, at.key, values);
+  return values;
 }
 
 bool TrialFit::is_of_kinds(const Effect& effect) const {
@@ -166,15 +158,15 @@ bool TrialFit::is_of_kinds(const Effect& effect) const {
 }
 
 TrialFit::Columns TrialFit::short_columns_of(const Effect& effect) const {
-  if (is_of_kinds(effect)) return {values_at(effect, alike_->first), true};
-  Eigen::MatrixXd columns = values_at(effect, row_numbers_);
+  if (is_of_kinds(effect)) return {*values_at(effect, first_of_kinds_), true};
+  Eigen::MatrixXd columns = *values_at(effect, all_rows_);
   centre(columns);
   return {std::move(columns), false};
 }
 
 Eigen::MatrixXd TrialFit::columns_of(const Effect& effect) const {
   if (has_exact_kinds()) return full(short_columns_of(effect));
-  Eigen::MatrixXd columns = values_at(effect, row_numbers_);
+  Eigen::MatrixXd columns = *values_at(effect, all_rows_);
   centre(columns);
   return columns;
 }
@@ -296,10 +288,7 @@ TrialFit::Trial TrialFit::as_is(std::size_t effect) const {
 void TrialFit::put_columns(const std::vector<std::size_t>& effects) {
   for_each_piece(effects.size(), [&](std::size_t i) {
     const std::size_t e = effects[i];
-    const Eigen::MatrixXd* known = tried_ != nullptr ? tried_->find(effects_[e]) : nullptr;
-    auto place = columns_.middleCols(first_column_[e], effects_[e].columns());
-    if (known != nullptr) place = *known;
-    else place = columns_of(effects_[e]);
+    columns_.middleCols(first_column_[e], effects_[e].columns()) = columns_of(effects_[e]);
   });
   if (!alike_) return;
   if (of_kinds_.size() == 0) {
@@ -326,7 +315,7 @@ void TrialFit::put_products(const std::vector<std::size_t>& effects) {
     const Eigen::Index first = first_column_[e], count = effects_[e].columns();
     if (has_exact_kinds() && is_of_kinds(effects_[e]))
       gram_.middleCols(first, count) =
-          products_with_all({values_at(effects_[e], alike_->first), true});
+          products_with_all({*values_at(effects_[e], first_of_kinds_), true});
     else
       gram_.middleCols(first, count) = columns_.transpose() * columns_.middleCols(first, count);
     // (a copy: a first effect's rows and columns begin at the same place)
@@ -338,27 +327,18 @@ std::vector<TrialFit::Trial> TrialFit::with_shapes(std::size_t effect,
                                                    const std::vector<EffectShape>& shapes,
                                                    double below) const {
   std::vector<Trial> trials(shapes.size());
-  std::vector<Effect> moved(shapes.size(), effects_[effect]);
-  std::vector<Eigen::MatrixXd> own(shapes.size());
   const Others others(gram_, first_column_[effect], effects_[effect].columns());
   const auto try_one = [&](std::size_t i) {
-    moved[i].shape = shapes[i];
-    if (const Eigen::MatrixXd* known = tried_ != nullptr ? tried_->find(moved[i]) : nullptr) {
-      const Columns columns{*known, false};
-      trials[i] = others.with(products_with_all(columns), own_products(columns), below);
-      return;
-    }
-    Columns columns = short_columns_of(moved[i]);
+    Effect moved = effects_[effect];
+    moved.shape = shapes[i];
+    const Columns columns = short_columns_of(moved);
     trials[i] = others.with(products_with_all(columns), own_products(columns), below);
-    if (!columns.of_kinds) own[i] = std::move(columns.values);
   };
   // Of kinds of rows they take less than a thread does to begin.
   if (is_of_kinds(effects_[effect]))
     for (std::size_t i = 0; i < shapes.size(); ++i) try_one(i);
   else
     for_each_piece(shapes.size(), try_one);
-  for (std::size_t i = 0; tried_ != nullptr && i < shapes.size(); ++i)
-    if (own[i].size() > 0) tried_->keep(moved[i], own[i]);
   return trials;
 }
 
@@ -385,7 +365,7 @@ Eigen::VectorXd TrialFit::joint_coefficients(const std::vector<Change>& more) co
   for_each_piece(more.size(), [&](std::size_t i) {
     const Change& change = more[i];
     const auto of = [&](const Effect& effect) {
-      return columns.of_kinds ? values_at(effect, alike_->first) : columns_of(effect);
+      return columns.of_kinds ? *values_at(effect, first_of_kinds_) : columns_of(effect);
     };
     columns.values.col(static_cast<Eigen::Index>(i)) =
         of(change.to) * change.coefficients - of(change.from) * change.coefficients;

@@ -9,25 +9,9 @@
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/gear/local/patches.h"
 #include "trueflank/loop/gear/table/alike_rows.h"
+#include "trueflank/loop/gear/table/shared_table.h"
 
 namespace trueflank::loop {
-
-/// Columns of effects that were tried on the same values, so that a shape that is tried again is not computed
-/// again: as many as memory for them is given.
-class TriedColumns {
- public:
-  /// nullptr where the effect was not tried.
-  [[nodiscard]] const Eigen::MatrixXd* find(const Effect& effect) const;
-  void keep(const Effect& effect, const Eigen::MatrixXd& columns);
-
- private:
-  struct Tried {
-    Effect effect;
-    Eigen::MatrixXd columns;
-  };
-  std::vector<Tried> tried_;
-  Eigen::Index values_ = 0;
-};
 
 /// The least squares of PointFit where shapes are tried one after another: columns of effects that
 /// stay as they are, and their products, are kept. Of a fit only the residual square and the
@@ -39,9 +23,8 @@ class TriedColumns {
 /// are tried alone (rows_of_cells).
 class TrialFit {
  public:
-  TrialFit(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
-           std::vector<Effect> effects, std::size_t stride = 1, TriedColumns* tried = nullptr,
-           FlankCells cells = {});
+  TrialFit(const FlankGeometry& geometry, const SharedTable& table, const Patches& patches,
+           std::vector<Effect> effects, std::size_t stride = 1, FlankCells cells = {});
 
   struct Trial {
     double square = 0.0;    ///< weighted residual square
@@ -86,8 +69,12 @@ class TrialFit {
   void find_alike(FlankCells cells);
   [[nodiscard]] bool is_of_kinds(const Effect& effect) const;
   [[nodiscard]] bool has_exact_kinds() const { return alike_ && table_.points_mm.empty(); }
-  [[nodiscard]] Eigen::MatrixXd values_at(const Effect& effect,
-                                          const std::vector<std::uint32_t>& rows) const;
+  /// Rows of the table, and how they are known to its EffectValues.
+  struct RowSet {
+    std::vector<std::uint32_t> rows;
+    std::uint64_t key = 0;
+  };
+  [[nodiscard]] EffectValues::Values values_at(const Effect& effect, const RowSet& at) const;
   [[nodiscard]] Columns short_columns_of(const Effect& effect) const;
   [[nodiscard]] Eigen::MatrixXd zeros_of_kinds(const Eigen::MatrixXd& values) const;
   [[nodiscard]] Eigen::MatrixXd full(const Columns& columns) const;
@@ -100,12 +87,12 @@ class TrialFit {
   void solve();
 
   const FlankGeometry& geometry_;
+  SharedTable shared_;
   const Observations& table_;
   std::vector<Effect> effects_;
-  TriedColumns* tried_ = nullptr;
   std::vector<Eigen::Index> first_column_;
   std::vector<Row> rows_;
-  std::vector<std::uint32_t> row_numbers_;  ///< of the table
+  RowSet all_rows_, first_of_kinds_;
   std::optional<AlikeRows> alike_;          ///< where rows are alike
   std::vector<double> trace_weight_;
   Eigen::VectorXd kind_weight_;

@@ -12,14 +12,51 @@ constexpr int kFaceParts = 12;
 
 double bell(double off) { return std::exp(-off * off); }
 
+using OverFace = std::array<double, kFaceParts>;
+
 /// Residuals of a flank's teeth over the face.
 struct FlankSums {
-  std::vector<std::array<double, kFaceParts>> sum, count;
+  std::vector<OverFace> sum, count;
 };
 
+/// What a form has in common with the residuals, and with itself.
 struct Shares {
   double product = 0.0, square = 0.0;
 };
+
+/// A place and a length over the face, as shares of it.
+struct FaceForm {
+  double share = 0.0, half_share = 0.0;  ///< half 0: over all of it
+  OverFace form{}, square{};
+};
+
+std::vector<FaceForm> face_forms() {
+  std::vector<FaceForm> forms;
+  for (const double half_share : {0.08, 0.13, 0.2, 0.32, 0.5, 0.0})
+    for (double share = 0.0; share <= (half_share > 0.0 ? 1.0 : 0.0); share += 1.0 / kFaceParts) {
+      FaceForm& one = forms.emplace_back(FaceForm{.share = share, .half_share = half_share});
+      for (std::size_t k = 0; k < kFaceParts; ++k) {
+        const double middle = (static_cast<double>(k) + 0.5) / kFaceParts;
+        one.form[k] = half_share > 0.0 ? bell((middle - share) / half_share) : 1.0;
+        one.square[k] = one.form[k] * one.form[k];
+      }
+    }
+  return forms;
+}
+
+/// A flank's residuals and counts with the form over the teeth taken in: over the face is left.
+struct AcrossTeeth {
+  OverFace product{}, square{};
+};
+
+Shares shares_of(const AcrossTeeth& teeth, const FaceForm& face) {
+  Shares shares;
+  for (std::size_t k = 0; k < kFaceParts; ++k) {
+    shares.product += face.form[k] * teeth.product[k];
+    shares.square += face.square[k] * teeth.square[k];
+  }
+  return shares;
+}
 
 }  // namespace
 
@@ -41,13 +78,10 @@ std::optional<Dent> largest_dent(const FlankGeometry& geometry, const Observatio
     flank.sum[static_cast<std::size_t>(place.tooth - 1)][part] += row_um[i];
     flank.count[static_cast<std::size_t>(place.tooth - 1)][part] += 1.0;
   }
+  const std::vector<FaceForm> faces = face_forms();
   Dent best;
-  const auto judge = [&](double tooth, double half_teeth, double share, double half_share) {
-    std::array<Shares, 2> of_flank;
-    std::array<double, kFaceParts> over_face;
-    for (int k = 0; k < kFaceParts; ++k)
-      over_face[static_cast<std::size_t>(k)] =
-          half_share > 0.0 ? bell(((k + 0.5) / kFaceParts - share) / half_share) : 1.0;
+  const auto judge = [&](double tooth, double half_teeth) {
+    std::array<AcrossTeeth, 2> of_flank;
     const int reach = std::min(static_cast<int>(std::ceil(3.0 * half_teeth)), (z - 1) / 2);
     for (int off = -reach; off <= reach; ++off) {
       const int number = static_cast<int>(std::floor(tooth)) + off;
@@ -55,36 +89,34 @@ std::optional<Dent> largest_dent(const FlankGeometry& geometry, const Observatio
       const double weight = bell((number - tooth) / half_teeth);
       for (std::size_t s = 0; s < 2; ++s)
         for (std::size_t k = 0; k < kFaceParts; ++k) {
-          const double form = weight * over_face[k];
-          of_flank[s].product += form * flanks[s].sum[at][k];
-          of_flank[s].square += form * form * flanks[s].count[at][k];
+          of_flank[s].product[k] += weight * flanks[s].sum[at][k];
+          of_flank[s].square[k] += weight * weight * flanks[s].count[at][k];
         }
     }
-    const Shares both{of_flank[0].product + of_flank[1].product,
-                      of_flank[0].square + of_flank[1].square};
-    const auto take = [&](const Shares& shares, int side, double factor) {
-      if (!(shares.square > 0.0)) return;
-      const double square = shares.product * shares.product / shares.square;
-      if (factor * square <= best.square) return;
-      best = {side,
-              tooth,
-              half_teeth,
-              share * geometry.face_width_mm(),
-              half_share * geometry.face_width_mm(),
-              square,
-              shares.product / shares.square};
-    };
-    // One flank alone must not be told of both for a little noise.
-    constexpr double kOneFlankToo = 0.9;
-    take(both, 0, 1.0);
-    take(of_flank[1], 1, kOneFlankToo);
-    take(of_flank[0], -1, kOneFlankToo);
+    for (const FaceForm& face : faces) {
+      const auto take = [&](const Shares& shares, int side, double factor) {
+        if (!(shares.square > 0.0)) return;
+        const double square = shares.product * shares.product / shares.square;
+        if (factor * square <= best.square) return;
+        best = {side,
+                tooth,
+                half_teeth,
+                face.share * geometry.face_width_mm(),
+                face.half_share * geometry.face_width_mm(),
+                square,
+                shares.product / shares.square};
+      };
+      const Shares right = shares_of(of_flank[0], face), left = shares_of(of_flank[1], face);
+      // One flank alone must not be told of both for a little noise.
+      constexpr double kOneFlankToo = 0.9;
+      take({right.product + left.product, right.square + left.square}, 0, 1.0);
+      take(left, 1, kOneFlankToo);
+      take(right, -1, kOneFlankToo);
+    }
   };
+  // Form over the teeth times form over the face: the sums over the teeth serve all over the face.
   for (const double half_teeth : {0.7, 1.0, 1.4, 2.0, 2.8})
-    for (double tooth = 1.0; tooth < z + 1.0; tooth += 0.25)
-      for (const double half_share : {0.08, 0.13, 0.2, 0.32, 0.5, 0.0})
-        for (double share = 0.0; share <= (half_share > 0.0 ? 1.0 : 0.0); share += 1.0 / kFaceParts)
-          judge(tooth, half_teeth, share, half_share);
+    for (double tooth = 1.0; tooth < z + 1.0; tooth += 0.25) judge(tooth, half_teeth);
   if (!(best.square > 0.0)) return std::nullopt;
   return best;
 }

@@ -280,8 +280,7 @@ bool PartLoop::put_refined_shapes_on_the_grid() {
   // What one moves to another makes room for: both in turn until neither moves.
   constexpr int kMostTurns = 8;
   if (can_be_refined(effects_, options_.given.size())) {
-    TriedColumns tried;
-    TrialFit fit = fit_to_refine(geometry_, table_, patches_, effects_, &tried);
+    TrialFit fit = fit_to_refine(geometry_, table_, patches_, effects_);
     for (int turn = 0; turn < kMostTurns; ++turn) {
       refine_shapes(geometry_, options_.given.size(), fit);
       if (!refine_nearby(geometry_, fit)) break;

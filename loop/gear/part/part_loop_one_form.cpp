@@ -115,7 +115,7 @@ std::vector<Effect> PartLoop::with_best_form(std::vector<Effect> rest,
     for (; next < forms.size() && forms[next].family == family; ++next)
       shapes.push_back(forms[next].shape);
     rest.back() = forms[first];
-    const TrialFit fit(geometry_, table_, patches_, rest, 1, nullptr, cells_for(geometry_, rest));
+    const TrialFit fit(geometry_, table_, patches_, rest, 1, cells_for(geometry_, rest));
     const std::vector<TrialFit::Trial> trials = fit.with_shapes(at, shapes, 1e300);
     Best own{.square = most.on_the_grid};
     for (std::size_t i = 0; i < shapes.size(); ++i) {
@@ -142,7 +142,7 @@ std::vector<Effect> PartLoop::with_best_form(std::vector<Effect> rest,
       if (!moves(one.form)) continue;
       rest.back() = one.form;
       const FlankCells cells = cells_for(geometry_, rest);
-      const TrialFit fit(geometry_, table_, patches_, rest, 1, nullptr, cells);
+      const TrialFit fit(geometry_, table_, patches_, rest, 1, cells);
       one.square = move_alone(geometry_, fit, at, one.form.shape);
     }
   std::size_t chosen = 0;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "trueflank/loop/gear/fit/effect_values.h"
 #include "trueflank/loop/gear/observations.h"
 
 namespace trueflank::loop {
@@ -18,14 +19,18 @@ class SharedTable {
   const Observations* operator->() const { return table_.get(); }
   /// To change it: nobody else's from now on.
   [[nodiscard]] Observations& own() {
+    values_ = std::make_shared<EffectValues>();
     if (table_.use_count() > 1) table_ = std::make_shared<Observations>(*table_);
     return *table_;
   }
   /// The table itself, of its last owner without a copy.
   [[nodiscard]] Observations taken() && { return std::move(own()); }
+  /// Values of effects at its rows, of one gear.
+  [[nodiscard]] EffectValues& values() const { return *values_; }
 
  private:
   std::shared_ptr<Observations> table_;
+  std::shared_ptr<EffectValues> values_ = std::make_shared<EffectValues>();
 };
 
 }  // namespace trueflank::loop

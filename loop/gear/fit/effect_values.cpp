@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/fit/effect_values.h"
+
+#include <bit>
+#include <utility>
+
+namespace trueflank::loop {
+namespace {
+
+/// Together with what was there, well spread (the finisher of splitmix64).
+std::uint64_t mixed(std::uint64_t key, std::uint64_t more) {
+  std::uint64_t x = key * 0x9e3779b97f4a7c15U + more;
+  x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
+  x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
+  return x ^ (x >> 31U);
+}
+
+std::uint64_t key_of(const Effect& effect, std::uint64_t rows) {
+  std::uint64_t key = mixed(rows, static_cast<std::uint64_t>(effect.flank));
+  for (const double value : effect.shape) key = mixed(key, std::bit_cast<std::uint64_t>(value));
+  return key;
+}
+
+}  // namespace
+
+std::uint64_t EffectValues::key_of(const std::vector<std::uint32_t>& rows) {
+  std::uint64_t key = rows.size();
+  for (const std::uint32_t row : rows) key = mixed(key, row);
+  return key;
+}
+
+EffectValues::Values EffectValues::find(const Effect& effect, std::uint64_t rows) const {
+  const std::scoped_lock lock(mutex_);
+  const auto [first, last] = kept_.equal_range(loop::key_of(effect, rows));
+  for (auto it = first; it != last; ++it)
+    if (it->second.rows == rows && it->second.effect == effect) return it->second.values;
+  return nullptr;
+}
+
+void EffectValues::keep(const Effect& effect, std::uint64_t rows, Values values) {
+  constexpr Eigen::Index kMost = 6'000'000, kMostOfOne = kMost / 64;
+  const Eigen::Index count = values->size();
+  if (count > kMostOfOne) return;
+  const std::scoped_lock lock(mutex_);
+  if (count_ + count > kMost) {
+    kept_.clear();
+    count_ = 0;
+  }
+  count_ += count;
+  kept_.emplace(loop::key_of(effect, rows), Kept{effect, rows, std::move(values)});
+}
+
+}  // namespace trueflank::loop
