@@ -209,6 +209,81 @@ TEST(FewTraces, StraightTracesThatTurnFromToothToToothAreNoWaveOverTheProfile) {
   }
 }
 
+/// The machine makes either flank at another place of its turn: a wave of its order has a phase of
+/// its own on each.
+auto ghost_of(double order, double amplitude_um, double left_rad, double right_rad) {
+  return [=](const MadeGear& g, const FlankSpot& s, auto&) {
+    const double from = roll_of_radius(g, g.root_form_mm), to = roll_of_radius(g, g.tip_mm);
+    const double roll = from + 0.5 * (s.u + 1.0) * (to - from);
+    const double rotation = 2.0 * M_PI * (s.tooth - 1) / g.teeth - s.side * roll / g.base();
+    return amplitude_um * std::cos(order * rotation - (s.side > 0 ? left_rad : right_rad));
+  };
+}
+
+TEST(FewTraces, AGhostOrderHasAPhaseOfItsOwnOnEitherFlank) {
+  struct Case {
+    int z, teeth, order;
+    double left, right;
+  };
+  for (const Case& c :
+       {Case{27, 8, 55, 0.4, 2.9}, Case{34, 4, 73, -1.0, 1.5}, Case{21, 3, 37, 2.0, -1.2},
+        Case{13, 8, 25, 0.0, 3.1}, Case{57, 6, 96, -2.2, 0.3}}) {
+    const MadeGear gear = spur(c.z);
+    InspectionOptions options = sheet(gear, c.teeth, 7);
+    const auto result =
+        close(gear, inspection_of(gear, {grown(ghost_of(c.order, 4.0, c.left, c.right))}, options));
+    int told = 0;
+    for (const auto& effect : result.effects) {
+      if (effect.id != "ghost_order") continue;
+      ++told;
+      EXPECT_EQ(parameter(effect, "order").value, c.order) << c.z << ": " << list(result);
+      EXPECT_NEAR(parameter(effect, "amplitude_um").value, 4.0, 0.3) << c.z << ": " << list(result);
+    }
+    EXPECT_EQ(told, 2) << c.z << ": " << list(result);
+    EXPECT_LT(result.after.held_out_rms, 0.5) << c.z << ": " << list(result);
+  }
+}
+
+TEST(FewTraces, AWaveInAPhaseOfItsOwnOnEveryToothIsNoGhostOrder) {
+  std::mt19937 numbers(5);
+  std::uniform_real_distribution<double> phase(0.0, 2.0 * M_PI);
+  for (const int teeth : {4, 6, 8}) {
+    const MadeGear gear = spur(34);
+    std::vector<double> phases(2 * 34);
+    for (double& one : phases) one = phase(numbers);
+    const auto wave = [&](auto&, const FlankSpot& s, auto&) {
+      return 4.0 * std::cos(8.0 * s.u -
+                            phases[static_cast<std::size_t>(2 * (s.tooth - 1) + (s.side > 0))]);
+    };
+    const auto result = close(gear, inspection_of(gear, {grown(wave)}, sheet(gear, teeth, 3)));
+    EXPECT_EQ(find(result, "ghost_order"), nullptr) << teeth << ": " << list(result);
+  }
+}
+
+TEST(FewTraces, ASlopeBesideAWaveThatIsNotUnderstoodAtFirstKeepsItsName) {
+  // Of order 111 three teeth of 57 show the same: it may be told as a wave that all teeth share.
+  int named = 0;
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    std::mt19937 numbers(seed);
+    const auto uniform = [&](double low, double high) {
+      return std::uniform_real_distribution<double>(low, high)(numbers);
+    };
+    const MadeGear gear = spur(57);
+    const auto ghost = ghost_of(111.0, 7.5, uniform(0.0, 6.3), uniform(0.0, 6.3));
+    const auto all = [&](const MadeGear& g, const FlankSpot& s, auto& more) {
+      return ghost(g, s, more) + 2.5 * s.v * s.side - (s.u > 0.2 ? 10.5 * (s.u - 0.2) : 0.0);
+    };
+    InspectionOptions options = sheet(gear, 3, seed);
+    options.noise_um = 1.0;
+    const auto result = close(gear, inspection_of(gear, {grown(all)}, options));
+    const auto* slope = find(result, "helix_error");
+    if (slope == nullptr) continue;
+    ++named;
+    EXPECT_NEAR(parameter(*slope, "slope_um").value, 5.0, 1.0) << seed << ": " << list(result);
+  }
+  EXPECT_GE(named, 3);
+}
+
 TEST(FewTraces, ASpeckOnOneTraceIsToldOfNoToothThatWasNotMeasured) {
   const auto speck = [](auto&, const FlankSpot& s, auto&) {
     return s.tooth == 11 && s.side < 0 ? 5.2 * std::exp(-std::pow((s.u - 0.3) / 0.12, 2)) : 0.0;

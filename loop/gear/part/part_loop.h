@@ -108,6 +108,9 @@ class PartLoop {
   [[nodiscard]] std::vector<Effect> with_sections_aside(std::vector<std::size_t>& these) const;
   [[nodiscard]] std::vector<Effect> with_one_side(std::vector<std::size_t>& these) const;
   [[nodiscard]] std::vector<Effect> with_reversal(std::vector<std::size_t>& these) const;
+  [[nodiscard]] std::vector<Effect> with_phase_of_each_flank(std::vector<std::size_t>& these) const;
+  [[nodiscard]] std::vector<Effect> with_pair_for(const std::vector<std::size_t>& these,
+                                                  const EffectFamily& family) const;
   [[nodiscard]] std::vector<Effect> cheapest_one_form(
       const std::vector<std::vector<std::size_t>>& sets, const std::vector<Effect>& forms,
       const std::vector<Effect>& beside, std::vector<std::size_t>& these) const;
@@ -115,6 +118,8 @@ class PartLoop {
   [[nodiscard]] bool drop_idle_forms();
   [[nodiscard]] bool drop_doubtful_orders();
   [[nodiscard]] bool is_order_of_all_data(std::size_t e);
+  [[nodiscard]] bool has_phases_of_its_order(const Effect& wave,
+                                             const std::vector<float>& row_um) const;
   [[nodiscard]] bool is_likeliest_order(const Effect& wave, const std::vector<Effect>& beside);
   [[nodiscard]] bool ban_alike(const Effect& effect);
   void veto();

@@ -211,39 +211,49 @@ void PartLoop::turn_kinks_beside_slopes() {
   }
 }
 
-/// A form with a place whose whole course one name with a place follows as well: a curve towards
-/// the tip beside a slope is a relief.
+/// A form with a place whose whole course a name follows as well: a step that was all that could be
+/// seen of a slope beside a wave not yet understood, or a curve towards the tip beside a slope,
+/// which is a relief.
 void PartLoop::name_forms_beside_names() {
   constexpr double kNoWorse = 1.0;  // chi-square
   bool named = false;
   for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
     const Effect form = effects_[e];
-    if (!form.is_term() || !form.family->is_like_many || form.columns() != 1) continue;
+    const bool is_step = form.family == find_family("unnamed_step");
+    if (!form.is_term() || form.columns() != 1 || !(form.family->is_like_many || is_step)) continue;
     const double as_form = fit_of(effects_)->residual_square();
-    std::vector<Effect> names;
+    const Runs runs = runs_of(geometry_, form, Flanks::kOfEither);
+    std::vector<Effect> without_place, with_place;
+    for (const int face : {0, 1})
+      if (runs == (face == 0 ? Runs::kOverProfile : Runs::kOverFace))
+        without_place = names_along(face, true);
+    std::erase_if(without_place, [&](const Effect& name) { return name.flank != form.flank; });
     for (std::size_t c = 0; c < candidates_.size(); ++c) {
       const EffectFamily& family = *candidates_[c].family;
-      if (family.named && family.shape_is_continuous && !family.shape_is_step && !unseen_[c] &&
-          candidates_[c].shape.size() == 1 && candidates_[c].flank == form.flank &&
+      if (!is_step && family.named && family.shape_is_continuous && !family.shape_is_step &&
+          !unseen_[c] && candidates_[c].shape.size() == 1 && candidates_[c].flank == form.flank &&
           runs_of(geometry_, candidates_[c]) == runs_of(geometry_, form))
-        names.push_back(candidates_[c]);
+        with_place.push_back(candidates_[c]);
     }
-    if (names.empty()) continue;
     std::vector<Effect> rest = effects_;
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(e));
-    std::vector<Effect> with = with_best_form(rest, names, {});
-    if (with.empty()) continue;
-    // Where it stood: what was given stays in front.
-    std::rotate(with.begin() + static_cast<std::ptrdiff_t>(e), with.end() - 1, with.end());
-    const auto fit = fit_of(with);
-    if (fit->residual_square() > as_form + kNoWorse ||
-        !is_possible(geometry_, *fit, static_cast<int>(e)))
-      continue;
-    std::swap(effects_, with);
-    if (stands_beside_forms(*fit, e))
-      named = true;
-    else
+    for (const std::vector<Effect>& names : {without_place, with_place}) {
+      if (names.empty()) continue;
+      std::vector<Effect> with = with_best_form(rest, names, {});
+      if (with.empty()) continue;
+      // Where it stood: what was given stays in front.
+      std::rotate(with.begin() + static_cast<std::ptrdiff_t>(e), with.end() - 1, with.end());
+      const auto fit = fit_of(with);
+      if (fit->residual_square() > as_form + kNoWorse ||
+          !is_possible(geometry_, *fit, static_cast<int>(e)))
+        continue;
       std::swap(effects_, with);
+      if (stands_beside_forms(*fit, e)) {
+        named = true;
+        break;
+      }
+      std::swap(effects_, with);
+    }
   }
   if (named) join_flanks();
 }

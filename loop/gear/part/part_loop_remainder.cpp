@@ -375,7 +375,58 @@ bool PartLoop::is_order_of_all_data(std::size_t e) {
                                    : (wave.flank == FlankChoice::kLeft) == (sense > 0.0) ? 1
                                                                                          : -1,
                            .backwards = wave.family->of_traces_only};
-  return chance_of_rotation_wave(geometry_, table_, *row_um, used, asked) <= kRemainderLevel;
+  if (chance_of_rotation_wave(geometry_, table_, *row_um, used, asked) <= kRemainderLevel)
+    return true;
+  // Of few teeth that says nothing.
+  const bool twin = std::any_of(beside.begin(), beside.end(), [&](const Effect& other) {
+    return other.family == wave.family && other.shape == wave.shape;
+  });
+  return twin && has_phases_of_its_order(wave, *row_um);
+}
+
+/// True where a wave of the traces of one flank takes nearly as much out of them as one of its
+/// length in a phase of its own on every tooth does: by chance the phases of three teeth or more
+/// seldom are those of an order.
+bool PartLoop::has_phases_of_its_order(const Effect& wave, const std::vector<float>& row_um) const {
+  constexpr double kNearly = 0.9;
+  constexpr std::size_t kFewestTeeth = 3;
+  struct Row {
+    int tooth = 0;
+    Eigen::Vector3d values;  // of both columns, and what is left without the wave
+  };
+  std::map<int, std::vector<Row>> traces;
+  for (std::size_t i = 0; i < table_->rows.size(); ++i) {
+    const Observation& row = table_->rows[i];
+    const Place& place = table_->place(row);
+    if (row.trace < 0 || patches_.patch_of_row[i] < 0 ||
+        wave.flank != flank_choice(geometry_, place.side > 0 ? 1 : 0))
+      continue;
+    double c[2];
+    wave.evaluate(geometry_, place, c);
+    traces[row.trace].push_back({place.tooth, {c[0], c[1], row_um[i]}});
+  }
+  const auto taken = [](const Eigen::Matrix3d& sums) {
+    const double determinant = sums(0, 0) * sums(1, 1) - sums(0, 1) * sums(0, 1);
+    if (!(determinant > 0.0)) return 0.0;
+    const double p = sums(0, 2), q = sums(1, 2);
+    return (p * p * sums(1, 1) - 2.0 * p * q * sums(0, 1) + q * q * sums(0, 0)) / determinant;
+  };
+  std::map<int, Eigen::Matrix3d> of_teeth;
+  for (const auto& [trace, rows] : traces) {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const Row& row : rows) mean += row.values / static_cast<double>(rows.size());
+    Eigen::Matrix3d& sums =
+        of_teeth.try_emplace(rows.front().tooth, Eigen::Matrix3d::Zero()).first->second;
+    for (const Row& row : rows) sums += (row.values - mean) * (row.values - mean).transpose();
+  }
+  if (of_teeth.size() < kFewestTeeth) return false;
+  Eigen::Matrix3d together = Eigen::Matrix3d::Zero();
+  double apart = 0.0;
+  for (const auto& [tooth, sums] : of_teeth) {
+    together += sums;
+    apart += taken(sums);
+  }
+  return taken(together) >= kNearly * apart;
 }
 
 /// By flips of all the data, against the other orders of its family on its flanks.

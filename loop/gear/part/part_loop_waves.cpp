@@ -14,6 +14,7 @@
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/part/runs_along.h"
 #include "trueflank/loop/gear/remainder_around.h"
+#include "trueflank/loop/gear/shape_refinement.h"
 
 namespace trueflank::loop {
 namespace {
@@ -126,6 +127,80 @@ std::optional<RemainderFinding> PartLoop::wave_of_pieces(int face, FlankChoice f
   for (const std::size_t e : along)
     wave.p_value = std::min(wave.p_value, discovery_.chosen[e].p_value);
   return wave;
+}
+
+/// A wave of a family on either flank, last, in place of some: of the order near theirs that leaves
+/// least.
+std::vector<Effect> PartLoop::with_pair_for(const std::vector<std::size_t>& these,
+                                            const EffectFamily& family) const {
+  const Effect& wave = effects_[these.front()];
+  std::vector<EffectShape> shapes{wave.shape};
+  if (family.nearby)
+    for (EffectShape& shape : family.nearby(geometry_, wave.shape))
+      shapes.push_back(std::move(shape));
+  std::vector<Effect> with;
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    if (std::find(these.begin(), these.end(), e) == these.end()) with.push_back(effects_[e]);
+  const std::size_t at = with.size();
+  for (const FlankChoice flank : {FlankChoice::kLeft, FlankChoice::kRight})
+    with.push_back({&family, flank, wave.shape});
+  // (the values of one flank hang on the other's by what both have in common alone)
+  const TrialFit fit = fit_to_refine(geometry_, table_, patches_, with);
+  const std::vector<TrialFit::Trial> left = fit.with_shapes(at, shapes, 0.0),
+                                     right = fit.with_shapes(at + 1, shapes, 0.0);
+  double least = kNaN;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (left[i].square + right[i].square >= least) continue;
+    least = left[i].square + right[i].square;
+    with[at].shape = with[at + 1].shape = shapes[i];
+  }
+  return with;
+}
+
+/// A wave over the generating rotation that has a phase of its own on either flank, for those that
+/// have the same on both: how far the rotations at which both flanks are made lie apart hangs on
+/// tool and machine, and flanks may be made one after the other. Where few teeth are traced,
+/// another order has both phases by chance, or two beside each other have. Empty: there is none.
+std::vector<Effect> PartLoop::with_phase_of_each_flank(std::vector<std::size_t>& these) const {
+  constexpr double kClearly = 25.0;   // chi-square
+  constexpr double kAlike = 2.0;      // sizes on both flanks
+  if (!is_traced(table_)) return {};  // scans show all teeth: waves of one flank are found in them
+  std::vector<std::vector<std::size_t>> sets(1);
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+    if (!effects_[e].family->tells_order_along_profile) continue;
+    if (effects_[e].flank == FlankChoice::kBoth) {
+      sets.front().push_back(e);
+      sets.push_back({e});
+      continue;
+    }
+    // Both have it already: beside what was found since, another order may fit better.
+    for (std::size_t f = e + 1; f < effects_.size(); ++f)
+      if (effects_[f].family == effects_[e].family && effects_[f].shape == effects_[e].shape)
+        sets.push_back({e, f});
+  }
+  std::vector<Effect> best;
+  double least = cost_of(effects_) - kClearly;
+  // (the library has the way the teeth are counted first, then the other one)
+  for (const EffectFamily& family : effect_library()) {
+    if (!family.tells_order_along_profile) continue;
+    for (const std::vector<std::size_t>& set : sets) {
+      if (set.empty() || (set.size() == 1 && &set == &sets.front())) continue;
+      std::vector<Effect> with = with_pair_for(set, family);
+      const double cost = cost_of(with);
+      if (!(cost < least)) continue;
+      const auto fitted = fit_of(with);
+      const auto size_um = [&](std::size_t before_last) {
+        return fitted->effect_size_um(static_cast<int>(with.size() - 1 - before_last));
+      };
+      const double ratio = size_um(0) / size_um(1);
+      if (!(ratio < kAlike && ratio > 1.0 / kAlike)) continue;
+      least = cost;
+      these = set;
+      best = std::move(with);
+    }
+    least -= best.empty() ? 0.0 : kClearly;
+  }
+  return best;
 }
 
 /// Waves around the gear of three orders or more and of like size, none a multiple of the lowest,
