@@ -109,12 +109,14 @@ class SectorSearch {
     if (p > kSure || largest_of_simpler() > best.square - kClearly * noise ||
         (is_more_left(best) && !says_nearly_all(best, left)))
       return {};
-    // The rest standing aside is the same but for the whole gear's place: what moves that less is told.
+    // The rest standing aside is the same but for the whole gear's place: what moves that less is
+    // told. Nearly all teeth aside are the gear off its bore.
     Vector2 gear_aside = whole_um_.tail(kOfSector);
     Eigen::VectorXd moved = Eigen::VectorXd::Zero(2 * n_);
     for_rows_of(best, [&](Index i) { moved[i] = aside_.row(i) * best.aside; });
     gear_aside -= symmetric_solution(gear_.transpose() * gear_, gear_.transpose() * moved).tail(kOfSector);
-    const bool others = (gear_aside + best.aside).norm() < gear_aside.norm();
+    const bool others = static_cast<double>(best.count) >= kLeastShare * static_cast<double>(n_) &&
+                        (gear_aside + best.aside).norm() < gear_aside.norm();
     const Index begin = others ? best.first + best.count : best.first,
                 count = others ? n_ - best.count : best.count;
     const int first = tooth_of(begin), last = tooth_of(begin + count - 1), z = geometry_.teeth();
@@ -194,6 +196,8 @@ class SectorSearch {
     return scan_ring(series, place, geometry_.teeth(), kNone).p_value <= kNone;
   }
 
+  /// Of the teeth, that are left where they were while all others stand aside.
+  static constexpr double kLeastShare = 0.25;
   /// So sure that the other tests' levels need not be shared with it.
   static constexpr double kSure = 1e-4;
   /// Chi-square by which it must beat what is simpler.

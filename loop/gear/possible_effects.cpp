@@ -30,12 +30,22 @@ double most_on_the_gear_um(const FlankGeometry& geometry, const Effect& effect, 
   return most;
 }
 
+/// True of a step that stands as near to an end as it may: it moves all of the face, or none.
+bool is_step_at_an_end(const FlankGeometry& geometry, const Effect& effect) {
+  constexpr double kAtTheEnd = 1e-3;
+  if (!effect.family->shape_is_step || !effect.family->shape_limits) return false;
+  const auto [low, high] = effect.family->shape_limits(geometry, 0);
+  const double share = (effect.shape[0] - low) / (high - low);
+  return share < kAtTheEnd || share > 1.0 - kAtTheEnd;
+}
+
 }  // namespace
 
 bool is_possible(const FlankGeometry& geometry, const PointFit& fit, int effect) {
   const Effect& one = fit.effects()[effect];
   const Eigen::VectorXd b = fit.coefficients().segment(fit.first_column(effect), one.columns());
   if (one.family->only_positive && !(b.array() > 0.0).all()) return false;
+  if (is_step_at_an_end(geometry, one)) return false;
   const double module_um = 1e3 * geometry.gear().normal_module_mm;
   if (most_on_the_gear_um(geometry, one, b) > kMostInModules * module_um) return false;
   const double before = fit.errors(std::vector<bool>(fit.effects().size(), false)).rms_um;

@@ -75,6 +75,22 @@ inline loop::ScanData scan_of(const MadeGear& g, const std::vector<Process>& pro
   return scan;
 }
 
+/// Points of the tip lands, scaled with the part.
+inline void add_tips(const MadeGear& gear, double percent, loop::ScanData& scan) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> share(-1.0, 1.0);
+  const FlankSpot end{1, 1, 1.0, -1.0};
+  const Vec3 corner = point_on(gear, end);
+  const double half = std::abs(std::atan2(corner[1], corner[0]));
+  const double grown = 1.0 + 0.01 * percent;
+  for (int i = 0; i < 3000; ++i) {
+    const double angle = 2.0 * M_PI * (i % gear.teeth) / gear.teeth + half * share(random);
+    const double r = gear.tip_mm * grown + 0.004 * share(random);
+    scan.points_mm.push_back({r * std::cos(angle), r * std::sin(angle),
+                              0.5 * gear.face_mm * grown * (1.0 + 0.98 * share(random))});
+  }
+}
+
 struct InspectionOptions {
   std::vector<int> teeth;   ///< profile and helix traces on these; empty: all
   int points = 80;

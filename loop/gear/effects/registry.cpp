@@ -39,6 +39,7 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_kink(),
         unnamed_bend(),
         unnamed_rise(),
+        unnamed_sag(),
         unnamed_dish(),
         unnamed_patch(),
         unnamed_corner(),

@@ -62,6 +62,7 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_kink();
 [[nodiscard]] EffectFamily unnamed_bend();
 [[nodiscard]] EffectFamily unnamed_rise();
+[[nodiscard]] EffectFamily unnamed_sag();
 [[nodiscard]] EffectFamily unnamed_dish();
 [[nodiscard]] EffectFamily unnamed_patch();
 [[nodiscard]] EffectFamily unnamed_corner();

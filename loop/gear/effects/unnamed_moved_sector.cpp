@@ -17,13 +17,17 @@ EffectFamily unnamed_moved_sector() {
     const bool on = ((p.tooth - from) % z + z) % z < static_cast<int>(shape[1]);
     two_directions(g, p, on ? 1.0 : 0.0, c);
   };
+  f.faces_a_direction = true;
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    // All but a few teeth aside are the gear off its bore, beside these.
+    constexpr double kMost = 0.75;
     std::vector<EffectShape> shapes;
     for (const double first : {-1.0, 0.0, 1.0})
       for (const double last : {-1.0, 0.0, 1.0}) {
         const EffectShape beside{std::fmod(shape[0] - 1.0 + first + g.teeth(), g.teeth()) + 1.0,
                                  shape[1] + last - first};
-        if (beside != shape && beside[1] >= 2.0 && beside[1] < g.teeth()) shapes.push_back(beside);
+        if (beside != shape && beside[1] >= 2.0 && beside[1] <= kMost * g.teeth())
+          shapes.push_back(beside);
       }
     return shapes;
   };

@@ -217,6 +217,51 @@ EffectFamily unnamed_rise() {
 
 namespace {
 
+/// Where a cubic that is nothing at both ends of -1 to 1 and has its other root outside them is
+/// largest: from a third to two thirds of the way. About the middle it is a parabola: a crowning.
+constexpr double kOffTheMiddle = 0.08, kFarthest = 0.33;
+
+/// Off the middle of the range, in halves of it.
+double off_the_middle(const FlankGeometry& g, double face, double at_mm) {
+  const double low = end_mm(g, face, -1.0), high = end_mm(g, face, 1.0);
+  return (2.0 * at_mm - low - high) / (high - low);
+}
+
+}  // namespace
+
+/// As designed at both ends, and one hollow or swelling between them, 1 at its place.
+EffectFamily unnamed_sag() {
+  EffectFamily f = along_flank(
+      "unnamed_sag", {"along", "place_mm"},
+      [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
+        const double at = std::clamp(off_the_middle(g, shape[0], stands_at(g, shape[0], shape[1])),
+                                     -kFarthest, kFarthest);
+        const double leans = 2.0 * at / (1.0 - 3.0 * at * at);
+        const auto height = [&](double v) { return (1.0 - v * v) * (1.0 + leans * v); };
+        const double v = off_the_middle(g, shape[0], along(shape[0], p));
+        return height(v) / height(at);
+      });
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes =
+        places_beside(g, shape, {0.05, 0.02, 0.01, 0.005, 0.002, 0.0007, 0.0002});
+    std::erase_if(shapes, [&](const EffectShape& s) {
+      const double off = std::abs(off_the_middle(g, s[0], stands_at(g, s[0], s[1])));
+      return off < kOffTheMiddle || off > kFarthest;
+    });
+    return shapes;
+  };
+  f.is_followed_nearly = true;
+  f.term_keys = {kAlong, number("place_mm")};
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    return "the same on every tooth, " + a_swelling(told.sign()) + " " + over(shape[0]) +
+           " from end to end, most " + at_place(told.geometry, shape[0], shape[1]);
+  };
+  return f;
+}
+
+namespace {
+
 /// A hollow or swelling about a place of the flank, a function of how far off it is over profile
 /// and face, in half lengths.
 template <class Function>

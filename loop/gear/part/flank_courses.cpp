@@ -35,6 +35,12 @@ bool differs_by_tooth(const Effect& effect) {
           !(family.same_on_every_tooth && family.same_on_every_tooth(effect.shape)));
 }
 
+bool moves_teeth_aside(const Effect& effect) {
+  const NeedsToBeSeen needs = effect.needs();
+  return effect.family->faces_a_direction && effect.columns() == 2 && !needs.along_profile &&
+         !needs.along_face && !needs.several_heights;
+}
+
 Eigen::VectorXd mean_over_teeth(const FlankGeometry& geometry, const PointFit& fit,
                                 std::size_t effect, bool face) {
   constexpr int kTeeth = 12;

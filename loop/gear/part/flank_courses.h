@@ -20,6 +20,9 @@ inline constexpr int kPlaces = 33;
 /// True where one tooth does not say what the mean of all does: a form of some teeth.
 [[nodiscard]] bool differs_by_tooth(const Effect& effect);
 
+/// True of what moves whole teeth in a direction, and bends none.
+[[nodiscard]] bool moves_teeth_aside(const Effect& effect);
+
 /// What an effect does in the mean of the teeth, of some where all are more than are needed.
 [[nodiscard]] Eigen::VectorXd mean_over_teeth(const FlankGeometry& geometry, const PointFit& fit,
                                               std::size_t effect, bool face);

@@ -75,6 +75,13 @@ std::vector<Effect> forms_along(const FlankGeometry& geometry, double face, Flan
   return forms;
 }
 
+std::vector<Effect> sags_along(const FlankGeometry& geometry, double face, FlankChoice flank) {
+  std::vector<Effect> sags;
+  for (const double share : {0.36, 0.44, 0.56, 0.64})
+    sags.push_back({find_family("unnamed_sag"), flank, {face, place_at(geometry, face, share)}});
+  return sags;
+}
+
 std::vector<Effect> steps_along(const FlankGeometry& geometry, double face, FlankChoice flank) {
   constexpr int kParts = 12;
   std::vector<Effect> forms;

@@ -13,6 +13,10 @@ namespace trueflank::loop {
 [[nodiscard]] std::vector<Effect> forms_along(const FlankGeometry& geometry, double face,
                                               FlankChoice flank, bool bands);
 
+/// Hollows or swellings from end to end of the profile (0) or the face (1), to start from.
+[[nodiscard]] std::vector<Effect> sags_along(const FlankGeometry& geometry, double face,
+                                             FlankChoice flank);
+
 /// Steps at places along the profile (0) or the face (1), to start from.
 [[nodiscard]] std::vector<Effect> steps_along(const FlankGeometry& geometry, double face,
                                               FlankChoice flank);

@@ -135,8 +135,11 @@ void PartLoop::explain_what_is_left() {
     best = {effects_, candidates_, options_.given, given_p_values_, discovery_, banned_, unseen_};
   };
   if (keep) keep_if_best();
-  for (int round = 0; round < kRounds && take_up_remainder(); ++round) {
+  for (int round = 0; round < kRounds; ++round) {
+    const std::vector<Effect> before = effects_;
+    if (!take_up_remainder()) break;
     explain();
+    if (take_up_again(before)) explain();
     if (keep) keep_if_best();
   }
   if (!keep || cost_of(effects_) <= least) return;
@@ -154,6 +157,7 @@ void PartLoop::explain() {
   constexpr int kRounds = 5;
   for (int round = 0; round < kRounds; ++round) {
     select();
+
     // Of a scan the sums that are kept for the rest take memory; after the last round they go with the patches.
     if (!table_->points_mm.empty() || round + 1 == kRounds) finish_choice();
     // Off the grid: the choice is made again with the shapes that fit, so that what a coarse

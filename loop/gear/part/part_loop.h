@@ -100,6 +100,7 @@ class PartLoop {
   [[nodiscard]] std::vector<Effect> names_alike(const Effect& form) const;
   [[nodiscard]] bool take_up_remainder();
   void take_up(const RemainderFinding& finding);
+  [[nodiscard]] bool take_up_again(const std::vector<Effect>& before);
   void explain_with_whole_forms();
   [[nodiscard]] bool take_up_whole_forms();
   [[nodiscard]] std::vector<double> left_with(const std::vector<std::size_t>& these) const;
@@ -141,6 +142,9 @@ class PartLoop {
   void add_names(int most_values);
   void tell_two_names_as_one();
   void tell_one_flank_as_two_names_of_all();
+  void tell_names_in_two_parts();
+  [[nodiscard]] bool is_shown_beside(std::size_t effect,
+                                     const std::vector<EffectShape>& terms) const;
   void tell_teeth_of_one_flank();
   void tell_bows_with_a_level();
   void drop_echoes_of_forms();

@@ -184,7 +184,7 @@ bool PartLoop::tell_as_drift_aside() {
   }
   // Neighbouring orders are what does not close, too.
   for (const double order : orders) begins = begins || orders.count(order + 1.0) > 0;
-  if (!begins || these.size() < 2) return false;
+  if (!begins || these.size() + moved.size() < 2) return false;
   std::vector<Effect> forms, aside;
   for (int first = 1; first <= geometry_.teeth(); ++first) {
     aside.push_back({find_family("unnamed_drift_aside"), FlankChoice::kBoth, {double(first)}});

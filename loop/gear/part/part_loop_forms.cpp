@@ -33,7 +33,7 @@ std::array<Eigen::VectorXd, 2> slow_forms(const FlankGeometry& geometry, const P
                                        Eigen::VectorXd::Zero(2 * kPlaces)};
   for (std::size_t e = 0; e < fit.effects().size(); ++e)
     for (const bool face : {false, true}) {
-      if (!is_common_form(fit.effects()[e])) continue;
+      if (!is_common_form(fit.effects()[e]) || moves_teeth_aside(fit.effects()[e])) continue;
       const Eigen::VectorXd course = course_of(geometry, fit, e, face), slow = slow_part(course);
       if (slow.squaredNorm() > kSlow * course.squaredNorm()) forms[face ? 1 : 0] += slow;
     }
@@ -137,6 +137,7 @@ double comb_um(const PointFit& fit) {
 /// A name that is a part of one odd form, and no cause of its own, is told as a form.
 void PartLoop::tell_parts_of_a_form() {
   drop_echoes_of_forms();
+  tell_names_in_two_parts();
   tell_bows_with_a_level();
   tell_forms_of_some_teeth();
   tell_forms_of_teeth();
@@ -327,6 +328,31 @@ const EffectFamily* PartLoop::form_of_level(std::size_t e) const {
   return own != nullptr || !effects_[e].shape.empty() ? own : find_form("thickness");
 }
 
+/// True of what lifts all flanks and keeps its size where the forms without a name that are the
+/// same on every tooth are not there, and these are: the tips, sizes or a lean that goes with it
+/// show it, as a scale beside a hollow.
+bool PartLoop::is_shown_beside(std::size_t e, const std::vector<EffectShape>& terms) const {
+  constexpr double kHangs = 0.25, kAnything = 1e-4, kBeyondDoubt = 25.0;  // chi-square
+  const auto now = fit_of(effects_);
+  if (!is_level(geometry_, *now, e)) return false;
+  std::vector<Effect> with;
+  std::size_t at = 0;
+  for (std::size_t other = 0; other < effects_.size(); ++other) {
+    if (other != e && effects_[other].is_term() && effects_[other].order() == 0.0) continue;
+    if (other == e) at = with.size();
+    with.push_back(effects_[other]);
+  }
+  for (const EffectShape& shape : terms)
+    with.push_back({find_family("unnamed"), FlankChoice::kBoth, shape});
+  const auto beside = fit_of(with);
+  const int column = beside->first_column(static_cast<int>(at));
+  const double size = now->coefficients()[now->first_column(static_cast<int>(e))],
+               kept = beside->coefficients()[column];
+  return beside->retained(column) > kAnything &&
+         kept * kept > kBeyondDoubt * beside->covariance()(column, column) &&
+         std::abs(kept - size) <= kHangs * std::max(std::abs(kept), std::abs(size));
+}
+
 /// So is what all flanks stand out by where its size hangs on forms along them: an odd form has a
 /// mean of its own.
 void PartLoop::tell_level_of_forms() {
@@ -363,8 +389,9 @@ void PartLoop::tell_level_of_forms() {
     if (!is_level(geometry_, fit, e)) continue;
     const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
     const double b0 = without.coefficients()[without.first_column(at)];
-    if (std::abs(b - b0) > kHangs * std::max(std::abs(b), std::abs(b0)) ||
-        (drifts && fit.effect_size_um(static_cast<int>(e)) < drift_um) ||
+    const bool hangs = std::abs(b - b0) > kHangs * std::max(std::abs(b), std::abs(b0)) &&
+                       !is_shown_beside(e, {{0.0, 0.0, 0.0, 0.0}});
+    if (hangs || (drifts && fit.effect_size_um(static_cast<int>(e)) < drift_um) ||
         fit.effect_size_um(static_cast<int>(e)) <
             std::max({kOfLobes * sharp_um, kOfWaves * waves_um, kOfComb * comb_um(fit)}))
       effect.family = form;

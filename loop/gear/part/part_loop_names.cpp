@@ -59,6 +59,54 @@ void PartLoop::tell_one_flank_as_two_names_of_all() {
         two_in_place_of(a, b);
 }
 
+/// Two forms without a name, each of teeth that the other leaves alone, and together as good as a
+/// name: they are that name and one of them, the smaller, if that is anything beside it.
+void PartLoop::tell_names_in_two_parts() {
+  constexpr double kNothing = 9.0, kIdle = 25.0;  // chi-square
+  const auto are_parts = [&](const Effect& a, const Effect& b) {
+    constexpr double kBetween = 1.0;  // teeth that both have, or neither
+    const std::vector<std::string>& names = a.family->shape_names;
+    if (!a.is_term() || a.family != b.family || a.flank != b.flank || names.size() < 2 ||
+        names[0] != "first_tooth" || names[1] != "teeth" ||
+        !std::equal(a.shape.begin() + 2, a.shape.end(), b.shape.begin() + 2, b.shape.end()))
+      return false;
+    const double z = geometry_.teeth();
+    return std::abs(a.shape[1] + b.shape[1] - z) <= kBetween &&
+           std::abs(std::remainder(a.shape[0] + a.shape[1] - b.shape[0], z)) <= kBetween;
+  };
+  const auto name_in_place_of = [&](std::size_t a, std::size_t b) {
+    const double now = fit_of(effects_)->residual_square();
+    for (std::size_t c = 0; c < candidates_.size(); ++c) {
+      const Effect& name = candidates_[c];
+      if (unseen_[c] || !name.family->named || name.family->local || !name.shape.empty() ||
+          name.columns() != effects_[a].columns() || name.flank != effects_[a].flank ||
+          std::find(effects_.begin(), effects_.end(), name) != effects_.end())
+        continue;
+      std::vector<Effect> with = effects_;
+      with[a] = name;
+      const auto fit = fit_of(with);
+      if (fit->residual_square() > now + kNothing ||
+          !(fit->retained(fit->first_column(static_cast<int>(a))) >= kToldApart) ||
+          !is_possible(geometry_, *fit, static_cast<int>(a)))
+        continue;
+      const double both = fit->residual_square();
+      effects_ = std::move(with);
+      std::copy_n(effects_.begin(), options_.given.size(), options_.given.begin());
+      discovery_.chosen[a].group = -1;
+      with = effects_;
+      with.erase(with.begin() + static_cast<std::ptrdiff_t>(b));
+      if (fit_of(with)->residual_square() < both + kIdle) remove_effect(b);
+      return true;
+    }
+    return false;
+  };
+  for (std::size_t a = first_told_here(); a < effects_.size(); ++a)
+    for (std::size_t b = first_told_here(); b < effects_.size(); ++b)
+      if (a != b && are_parts(effects_[a], effects_[b]) &&
+          effects_[a].shape[1] >= effects_[b].shape[1] && name_in_place_of(a, b))
+        break;
+}
+
 /// Names of all teeth that the choice passed over, as small beside the others as they are, where
 /// each takes out clearly more than chance: up to so many values.
 void PartLoop::add_names(int most_values) {

@@ -89,6 +89,18 @@ double change_along(const FlankField& forms, const Eigen::VectorXd& name) {
   return std::sqrt((share.array() - share.mean()).square().mean());
 }
 
+/// True where forms around the gear may have a mean along what a name does: with it they leave many
+/// teeth nearly as designed there, or hardly change their sign. Waves that swing to both sides
+/// have none, as an axis that wobbles.
+bool may_have_a_mean(const FlankField& forms, const Eigen::VectorXd& name) {
+  constexpr double kNearly = 0.12, kMany = 0.4, kHardly = 0.1;
+  const Eigen::ArrayXd along = 1.0 + (forms.transpose() * name / name.squaredNorm()).array();
+  const double low = along.minCoeff(), high = along.maxCoeff();
+  if (std::min(-low, high) < kHardly * std::max(-low, high)) return true;
+  return static_cast<double>((along.abs() < kNearly * (high - low)).count()) >=
+         kMany * static_cast<double>(along.size());
+}
+
 /// A field without the height of each flank, which traces with zeros of their own do not show.
 void take_off_heights(Eigen::Ref<FlankField> field) {
   for (const Eigen::Index flank : {0, 1}) {
@@ -389,7 +401,8 @@ bool is_mean_across(const std::array<MeanOfFlank, 2>& name,
 }  // namespace
 
 /// A slope, a bow or a height that forms without a name change from one end of the flanks to the
-/// other is the mean of these: growth above a height was a scale.
+/// other is the mean of these: growth above a height was a scale. (Not what shows beside a height,
+/// a lean and a turn that are free.)
 void PartLoop::tell_means_across_flanks() {
   if (std::none_of(effects_.begin(), effects_.end(), [](const Effect& e) { return e.is_term(); }))
     return;
@@ -405,7 +418,8 @@ void PartLoop::tell_means_across_flanks() {
         effects_[e].order() != 0.0 || e < first_told_here())
       continue;
     const EffectFamily* form = form_instead(e) != nullptr ? form_instead(e) : form_of_level(e);
-    if (form != nullptr && is_mean_across(mean_of_flanks(field_of(geometry_, *fit, e)), mean))
+    if (form != nullptr && is_mean_across(mean_of_flanks(field_of(geometry_, *fit, e)), mean) &&
+        !is_shown_beside(e, {{0.0, 0.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 1.0}}))
       effects_[e].family = form;
   }
 }
@@ -474,9 +488,9 @@ void PartLoop::tell_means_of_odd_forms() {
     }
     const double twist = crossed_part(field).norm();
     const bool is_twist = twist * twist > 0.5 * name.squaredNorm();
-    if ((around.is_odd() && change_along(around.sum, name) > kChanges) ||
-        (is_twist && crossed.norm() > kShare * twist))
-      effects_[e].family = form_instead(e);
+    const bool odd = around.is_odd() && change_along(around.sum, name) > kChanges &&
+                     (around.is_no_wave || may_have_a_mean(around.sum, name));
+    if (odd || (is_twist && crossed.norm() > kShare * twist)) effects_[e].family = form_instead(e);
   }
 }
 

@@ -509,7 +509,12 @@ void PartLoop::tell_as_one_form() {
           (is_told_apart(level, effects_) && put_one_form_for(set, names, {level})))
         return true;
     }
-    if (put_one_form_for(set, forms_along(geometry_, face, flank, set.size() > 1))) return true;
+    std::vector<Effect> forms = forms_along(geometry_, face, flank, set.size() > 1);
+    // (A bow and a slope alone are two names, and a sag a little off.)
+    constexpr int kValuesOfSag = 3;
+    if (values(set) >= kValuesOfSag)
+      for (Effect& sag : sags_along(geometry_, face, flank)) forms.push_back(std::move(sag));
+    if (put_one_form_for(set, forms)) return true;
     if (set.size() < 2) return false;
     const std::vector<Effect> waves = long_waves(geometry_, face, flank);
     return put_one_form_for(set, waves) || put_one_form_for(set, waves, {slope_over(face, flank)});

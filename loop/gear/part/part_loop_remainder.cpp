@@ -11,8 +11,10 @@
 #include <vector>
 
 #include "trueflank/base/threads.h"
+#include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/local/rotation_waves.h"
+#include "trueflank/loop/gear/part/flank_courses.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/possible_effects.h"
 #include "trueflank/loop/gear/remainder_around.h"
@@ -267,6 +269,32 @@ void PartLoop::take_up(const RemainderFinding& finding) {
   ban_given();
 }
 
+/// A name that moves the whole gear and went while forms of a few teeth came, though it takes out
+/// far more than chance beside them: folds that hold such teeth predict the others badly, and
+/// little is told by what they say of it. It stays from now on. True where there was one.
+bool PartLoop::take_up_again(const std::vector<Effect>& before) {
+  constexpr double kFar = 100.0;  // chi-square a column
+  for (const Effect& name : before) {
+    const auto at = std::find(candidates_.begin(), candidates_.end(), name);
+    if (!name.family->named || !name.family->displacement_mm || name.columns() != 2 ||
+        !name.shape.empty() || at == candidates_.end() ||
+        banned_[static_cast<std::size_t>(at - candidates_.begin())] ||
+        std::find(effects_.begin(), effects_.end(), name) != effects_.end() ||
+        !is_told_apart(name, effects_))
+      continue;
+    std::vector<Effect> with = effects_;
+    with.push_back(name);
+    const double gain = fit_of(effects_)->residual_square() - fit_of(with)->residual_square();
+    if (gain < kFar * name.columns()) continue;
+    RemainderFinding finding;
+    finding.p_value = std::exp(-minus_log_chi_square_tail(gain, name.columns()));
+    finding.effect = name;
+    take_up(finding);
+    return true;
+  }
+  return false;
+}
+
 bool PartLoop::take_up_remainder() {
   constexpr int kAtOnce = 4;
   std::vector<Effect> effects = effects_;
@@ -465,11 +493,13 @@ bool PartLoop::ban_alike(const Effect& effect) {
 }
 
 /// A name must hold whether or not forms without a name stand beside it: where its size hangs on
-/// them it is a part of the description, no cause. True where any was banned.
+/// them it is a part of the description, no cause. (What moves teeth aside bends none.) True where
+/// any was banned.
 bool PartLoop::ban_what_forms_explain() {
   constexpr double kHangs = 0.25;
   const auto is_form = [&](const Effect& e) {
-    return e.is_term() && e.family->shapes && e.family->shapes(geometry_).empty();
+    return e.is_term() && e.family->shapes && e.family->shapes(geometry_).empty() &&
+           !moves_teeth_aside(e);
   };
   std::vector<Effect> without;
   std::copy_if(effects_.begin(), effects_.end(), std::back_inserter(without),

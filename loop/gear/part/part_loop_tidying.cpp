@@ -211,9 +211,10 @@ void PartLoop::tell_two_names_as_one() {
 }
 
 /// A bow without a height of its own beside a bow with a name, which has one, are that bow and a
-/// height.
+/// height. (Both pairs say the same: how well a height is told apart from a scale is the bow's,
+/// too.)
 void PartLoop::tell_bows_with_a_level() {
-  constexpr double kNothing = 1.0;  // chi-square
+  constexpr double kNothing = 1.0, kAnything = 1e-3;  // chi-square; of the column
   const Effect level{find_family("unnamed"), FlankChoice::kBoth, {0.0, 0.0, 0.0, 0.0}};
   for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
     const Effect term = effects_[e];
@@ -228,7 +229,7 @@ void PartLoop::tell_bows_with_a_level() {
     std::vector<Effect> with = effects_;
     with[e] = level;
     const auto fit = fit_of(with);
-    if (!(fit->retained(fit->first_column(static_cast<int>(e))) >= kToldApart) ||
+    if (!(fit->retained(fit->first_column(static_cast<int>(e))) > kAnything) ||
         fit->residual_square() > fit_of(effects_)->residual_square() + kNothing)
       continue;
     std::swap(effects_, with);

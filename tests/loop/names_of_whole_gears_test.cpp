@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/loop/made_gears.h"
+
+// Names of the whole gear beside forms of a few teeth, of a part of them, or of all: an
+// eccentricity beside bent corners, a scale beside a hollow, a relief beside teeth that stand
+// aside, a taper beside a wobble.
+namespace trueflank::test {
+namespace {
+
+constexpr double kTwoPi = 2.0 * M_PI;
+
+/// Tip corners at one end (-1, 1) of three teeth, bent to one side: a part that was dropped.
+Process dropped(int first, double um, double end) {
+  return grown([=](auto&, const FlankSpot& s, auto&) {
+    if (s.tooth < first || s.tooth > first + 2) return 0.0;
+    const double tip = std::max(0.0, 0.5 * (s.u + 1.0) - 0.4) / 0.6;
+    return -um * tip * std::max(0.0, end * s.v) * s.side;
+  });
+}
+
+TEST(NamesOfWholeGears, AnEccentricityBesideTeethThatWereDropped) {
+  const MadeGear gear = spur(22);
+  const auto result = close(
+      gear, scan_of(gear, {off_centre(4.0, 0.0), dropped(3, 18.0, -1.0)}, scanned(12000, 1.0, 5)),
+      true);
+  const auto* found = find(result, "eccentricity");
+  ASSERT_NE(found, nullptr) << list(result);
+  EXPECT_NEAR(parameter(*found, "amplitude_um").value, 4.0, 0.2) << list(result);
+}
+
+TEST(NamesOfWholeGears, AScaleBesideAHollowFromEndToEnd) {
+  constexpr double kPercent = -0.27;
+  const MadeGear gear = spur(41);
+  const auto hollow = [](auto&, const FlankSpot& s, auto&) {
+    return -14.0 * (1.0 - s.v * s.v) * (1.0 + 0.6 * s.v);
+  };
+  auto scan = scan_of(gear, {scaled(kPercent), grown(hollow)}, scanned(9000, 2.0, 3));
+  add_tips(gear, kPercent, scan);
+  const auto result = close(gear, scan, true);
+  ASSERT_NE(find(result, "scale"), nullptr) << list(result);
+  EXPECT_NEAR(parameter(*find(result, "scale"), "percent").value, kPercent, 0.01) << list(result);
+  EXPECT_TRUE(tells_of(result, "a hollow over the face from end to end, most at a height of 6"))
+      << list(result);
+  EXPECT_EQ(result.effects.size(), 2U) << list(result);
+  EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
+}
+
+TEST(NamesOfWholeGears, ReliefsBesideTeethThatStandAside) {
+  for (const double deg : {46.0, 252.0}) {
+    const MadeGear gear = deg < 90.0 ? helical(22, 9.0) : spur(22);
+    Process both = grown([](auto&, const FlankSpot& s, auto&) {
+      const double off = std::max(0.0, s.u + 0.1) / 1.1;
+      return -11.6 * off * off;
+    });
+    both.move_um = [&](const MadeGear& g, const FlankSpot& s, const Vec3& p) -> Vec3 {
+      const bool aside = s.tooth > 10 && s.tooth < 19;
+      return aside ? off_centre(36.0, deg).move_um(g, s, p) : Vec3{0.0, 0.0, 0.0};
+    };
+    const auto result = close(gear, scan_of(gear, {both}, scanned(9000, 1.8, 4)), true);
+    ASSERT_NE(find(result, "tip_relief"), nullptr) << list(result);
+    EXPECT_NEAR(parameter(*find(result, "tip_relief"), "amount_um").value, 11.6, 0.6)
+        << list(result);
+    EXPECT_TRUE(tells_of(result, "8 teeth from tooth 11 on stand aside")) << list(result);
+    EXPECT_EQ(result.effects.size(), 2U) << list(result);
+  }
+}
+
+TEST(NamesOfWholeGears, ATaperBesideAThicknessThatWobbles) {
+  const MadeGear gear = spur(38);
+  InspectionOptions options;
+  options.profile = options.index = false;
+  options.noise_um = 0.5;
+  options.seed = 8;
+  const auto wobble = [](const MadeGear& g, const FlankSpot& s, auto&) {
+    const double at = kTwoPi * (s.tooth - 1) / g.teeth;
+    return -2.1 * s.v + 4.1 * s.v * (std::cos(2.0 * at - 0.9) + 0.5 * std::cos(3.0 * at + 0.9));
+  };
+  const auto result = close(gear, inspection_of(gear, {grown(wobble)}, options));
+  ASSERT_NE(find(result, "taper"), nullptr) << list(result);
+  EXPECT_NEAR(parameter(*find(result, "taper"), "slope_um").value, -4.2, 0.2) << list(result);
+}
+
+}  // namespace
+}  // namespace trueflank::test
