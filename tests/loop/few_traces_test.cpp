@@ -52,6 +52,26 @@ TEST(FewTraces, AHollowOnOneFlankIsFound) {
   EXPECT_NEAR(parameter(*found, "depth_um").value, 8.0, 0.8);
 }
 
+TEST(FewTraces, NothingHasAPlaceInADirectionThatWasNotMeasured) {
+  // Profiles at one height, or helices at one diameter: a swelling about another place would be
+  // larger.
+  for (const MadeGear& gear : {spur(32), helical(32, -24.0)})
+    for (const bool over_face : {false, true})
+      for (const auto& [at, seed] : {std::pair(0.2, 8U), std::pair(0.32, 7U)}) {
+        const auto ridges = [&, at = at](auto&, const FlankSpot& s, auto&) {
+          const double off = (over_face ? s.v : s.u) - s.side * at;
+          return 4.0 * std::exp(-off * off / 0.04);
+        };
+        InspectionOptions options = traced({1, 5, 9, 13, 17, 21, 25, 29}, 0.25, seed);
+        (over_face ? options.profile : options.helix) = false;
+        const auto result = close(gear, inspection_of(gear, {grown(ridges)}, options));
+        EXPECT_FALSE(tells_of(result, "of the flank at a diameter")) << list(result);
+        EXPECT_EQ(result.effects.size(), 2U) << list(result);
+        for (const auto& effect : result.effects)
+          EXPECT_NEAR(parameter(effect, "amplitude_um").value, 4.0, 0.7) << list(result);
+      }
+}
+
 TEST(FewTraces, WavesThatFourTeethCannotShowAreNoCandidates) {
   // Of order 4 four teeth show the cosine alone; a fitted sine of rounding would be of any size.
   const MadeGear gear = spur(24);

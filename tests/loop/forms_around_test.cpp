@@ -77,6 +77,38 @@ TEST(FormsAround, StandAsOneFormBesideAnEccentricityInAnIndex) {
     }
 }
 
+TEST(FormsAround, StandBesideAnEccentricityAndAWaveOfThePitch) {
+  const auto sector = [](auto&, const FlankSpot& s, auto&) {
+    return s.tooth >= 12 && s.tooth <= 20 ? 4.0 * s.side : 0.0;
+  };
+  const auto drift = [](auto&, const FlankSpot& s, auto&) {
+    return s.side > 0 ? 8.0 * (1.0 - std::exp(-(s.tooth - 1) / 15.0)) : 0.0;
+  };
+  const auto result_of = [](const Process& form, unsigned seed) {
+    InspectionOptions options;
+    options.profile = options.helix = false;
+    options.noise_um = 0.5;
+    options.seed = seed;
+    return close(spur(kTeeth),
+                 inspection_of(spur(kTeeth), {form, off_centre(4.0, 100.0), indexed(2, 5.0, 43.0)},
+                               options));
+  };
+  for (const unsigned seed : {1U, 2U, 3U})
+    for (const auto& [form, words] :
+         {std::pair(grown(sector), "a sector of 9 teeth from tooth 12 on stands aside"),
+          std::pair(grown(drift), "from tooth 1 on, once around, the height drifts")}) {
+      const auto result = result_of(form, seed);
+      EXPECT_EQ(result.effects.size(), 3U) << list(result);
+      EXPECT_TRUE(tells_of(result, words)) << list(result);
+      EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
+      ASSERT_NE(find(result, "eccentricity"), nullptr) << list(result);
+      EXPECT_NEAR(parameter(*find(result, "eccentricity"), "amplitude_um").value, 4.0, 0.6)
+          << list(result);
+      EXPECT_TRUE(tells_of(result, "pitch_wave") || tells_of(result, "twice per turn"))
+          << list(result);
+    }
+}
+
 TEST(FormsAround, AreNoNamesByThemselves) {
   for (const FormAround& form : kForms) {
     const auto result = index_of(form, 0.0, 5);

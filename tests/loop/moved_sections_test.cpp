@@ -99,6 +99,49 @@ TEST(SectionsInSteps, AreLayerShiftsAndNoWave) {
   EXPECT_NE(find(one, "axis_tilt"), nullptr) << list(one);
 }
 
+TEST(KinkOfTheAxis, IsOneFormAndNoTiltWobbleOrLayerShift) {
+  for (const MadeGear& gear : {spur(24), helical(27, 18.0)})
+    for (const bool up : {true, false}) {
+      const double face_mm = gear.face_mm, at_mm = 0.45 * face_mm;
+      const auto leans = moved(
+          [=](double z) {
+            return up ? 22.0 * std::max(0.0, z - at_mm) / (face_mm - at_mm)
+                      : 22.0 * std::max(0.0, at_mm - z) / at_mm;
+          },
+          130.0);
+      for (const auto& result :
+           {close(gear, inspection_of(gear, {leans}, of_all_teeth(1.5, 11))),
+            close(gear, scan_of(gear, {leans}, scanned(7000, 2.0, 12)), true)}) {
+        EXPECT_FALSE(has_name(result)) << list(result);
+        ASSERT_EQ(result.effects.size(), 1U) << list(result);
+        EXPECT_TRUE(tells_of(result, "the axis of the teeth has a kink at a height of"))
+            << list(result);
+        EXPECT_TRUE(tells_of(result, up ? "straight below it" : "straight above it"))
+            << list(result);
+        EXPECT_TRUE(tells_of(result, "towards 1")) << list(result);
+        const auto& kink = result.effects[0];
+        EXPECT_NEAR(parameter(kink, "amplitude_um").value, 22.0, 1.0) << list(result);
+      }
+    }
+}
+
+TEST(KinkOfTheAxis, LeavesATiltALayerShiftAndABowWhatTheyAre) {
+  const MadeGear gear = spur(24);
+  const double face_mm = gear.face_mm;
+  const auto leans = moved([=](double z) { return 24.0 * (z / face_mm - 0.5); }, -60.0);
+  const auto shifts = moved([=](double z) { return z > 0.4 * face_mm ? 14.0 : 0.0; }, 20.0);
+  const auto bends = moved([=](double z) { return 20.0 * z * z / (face_mm * face_mm); }, 75.0);
+  for (const auto& [process, words] :
+       {std::pair(leans, "axis_tilt"), std::pair(shifts, "layer_shift"),
+        std::pair(bends, "the axis of the teeth is bent from the lower end on")})
+    for (const auto& result :
+         {close(gear, inspection_of(gear, {process}, of_all_teeth(1.5, 13))),
+          close(gear, scan_of(gear, {process}, scanned(7000, 2.0, 14)), true)}) {
+      EXPECT_EQ(result.effects.size(), 1U) << list(result);
+      EXPECT_TRUE(tells_of(result, words)) << list(result);
+    }
+}
+
 TEST(FootOfOneSide, IsOneFormAndNoFoot) {
   const MadeGear gear = spur(30);
   const auto foot = grown([](const MadeGear& g, const FlankSpot& s, auto&) {

@@ -379,9 +379,9 @@ TEST(SignWords, AreSaidOfEveryFormOfOneCoefficient) {
     static const std::set<std::string> kOther{
         "unnamed_patch", "unnamed_waviness", "unnamed_marks", "unnamed_waves_from",
         "unnamed_waves_dying", "unnamed_waves_growing", "unnamed_walking_waves",
-        "unnamed_waves_changing", "unnamed_bow", "unnamed_field", "unnamed_facing",
-        "unnamed_moved_sector", "unnamed_drift_aside", "unnamed_broken_wave", "unnamed_stairs",
-        "unnamed_wave_of_some",
+        "unnamed_waves_changing", "unnamed_bow", "unnamed_axis_kink", "unnamed_field",
+        "unnamed_facing", "unnamed_moved_sector", "unnamed_drift_aside", "unnamed_broken_wave",
+        "unnamed_stairs", "unnamed_wave_of_some",
         // (play is said by its axis; the words of those of some teeth are those of all)
         "unnamed_wobble", "unnamed_reversal", "unnamed_kink_of_teeth", "unnamed_bend_of_teeth",
         "unnamed_waviness_of_teeth"};

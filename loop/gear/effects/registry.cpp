@@ -57,6 +57,7 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_sector(),
         unnamed_soft_sector(),
         unnamed_bow(),
+        unnamed_axis_kink(),
         unnamed_field(),
         unnamed_facing(),
         unnamed_facing_one_side(),

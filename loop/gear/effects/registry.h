@@ -81,6 +81,7 @@ namespace trueflank::loop::gear_effects {
 /// and of what stands at its edges, and no candidate of its own.
 [[nodiscard]] EffectFamily unnamed_soft_sector();
 [[nodiscard]] EffectFamily unnamed_bow();
+[[nodiscard]] EffectFamily unnamed_axis_kink();
 [[nodiscard]] EffectFamily unnamed_field();
 [[nodiscard]] EffectFamily unnamed_facing();
 [[nodiscard]] EffectFamily unnamed_facing_one_side();

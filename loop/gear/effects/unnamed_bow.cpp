@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <string>
 
+#include "trueflank/base/number_text.h"
+#include "trueflank/loop/gear/effects/along_flank.h"
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/effects/sign_words.h"
@@ -48,6 +51,42 @@ EffectFamily unnamed_bow() {
   f.words = [](const ToldForm& told) {
     return std::string("the axis of the teeth is bent ") + held_where(told.shape[0]) +
            in_direction(told.direction_rad());
+  };
+  return f;
+}
+
+/// Told in place of what moves sections piece by piece (part_loop_sections.cpp,
+/// part_loop_one_form.cpp), and no candidate of its own.
+EffectFamily unnamed_axis_kink() {
+  EffectFamily f = described("unnamed_axis_kink", {"height_mm", "towards"});
+  f.columns = [](const EffectShape&) { return 2; };
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    const double end_mm = shape[1] > 0.0 ? g.face_width_mm() : 0.0;
+    two_directions(g, p, std::max(0.0, (p.z_mm - shape[0]) / (end_mm - shape[0])), c);
+  };
+  f.needs = [](const EffectShape&) { return NeedsToBeSeen{.several_heights = true}; };
+  f.faces_a_direction = true;
+  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
+  f.bends_over_the_face = [](const EffectShape&) { return true; };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    constexpr double kEnds =
+        0.06;  // of the face: nearer to one it is a lean of all of it, or nothing
+    std::vector<EffectShape> shapes;
+    const double face_mm = g.face_width_mm();
+    for (const double off : {-0.05, -0.02, -0.007, -0.002, 0.002, 0.007, 0.02, 0.05})
+      shapes.push_back(
+          {std::clamp(shape[0] + off * face_mm, kEnds * face_mm, (1.0 - kEnds) * face_mm),
+           shape[1]});
+    return shapes;
+  };
+  f.term_keys = {number("height_mm"), {"towards"}};
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const bool up = shape[1] > 0.0;
+    return printed("the axis of the teeth has a kink at a height of %.3g mm: ", shape[0]) +
+           (up ? "straight below it, from there to the upper end it leans away"
+               : "straight above it, from there to the lower end it leans away") +
+           in_direction(told.direction_rad()) + ", by that much at the end";
   };
   return f;
 }

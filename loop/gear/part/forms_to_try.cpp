@@ -158,6 +158,23 @@ std::vector<Effect> corners(const FlankGeometry& geometry, FlankChoice flank) {
   return forms;
 }
 
+std::vector<Effect> bows_of_the_axis() {
+  std::vector<Effect> bows;
+  for (const double held_at : {-1.0, 0.0, 1.0, 2.0})
+    bows.push_back({find_family("unnamed_bow"), FlankChoice::kBoth, {held_at}});
+  return bows;
+}
+
+std::vector<Effect> kinks_of_the_axis(const FlankGeometry& geometry) {
+  std::vector<Effect> kinks;
+  for (const double share : {0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75, 0.85})
+    for (const double towards : {-1.0, 1.0})
+      kinks.push_back({find_family("unnamed_axis_kink"),
+                       FlankChoice::kBoth,
+                       {share * geometry.face_width_mm(), towards}});
+  return kinks;
+}
+
 std::vector<Effect> swellings_around(int teeth, FlankChoice flank) {
   std::vector<Effect> forms;
   for (int number = 2; number <= kMostSwellings; ++number) {

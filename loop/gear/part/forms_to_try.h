@@ -63,6 +63,10 @@ inline constexpr int kMostOfComb = 8;  ///< one tooth in so many, at most
 [[nodiscard]] std::vector<std::vector<Effect>> forms_from_tooth_to_tooth(
     int teeth, const CourseOverFlanks& course);
 
+/// Bent axes, and axes with a kink to start from.
+[[nodiscard]] std::vector<Effect> bows_of_the_axis();
+[[nodiscard]] std::vector<Effect> kinks_of_the_axis(const FlankGeometry& geometry);
+
 /// Corners to start from.
 [[nodiscard]] std::vector<Effect> corners(const FlankGeometry& geometry, FlankChoice flank);
 

@@ -23,6 +23,12 @@ inline constexpr double kNextLevel = 0.01;
 
 struct CourseOverFlanks;
 
+/// Whether traces and scans of the flanks of a side differ in their place over the profile and over
+/// the face, and any values in their height.
+struct FlankReach {
+  bool profile = true, face = true, heights = true;
+};
+
 /// The procedure on one table: selection, shapes off the grid, finite displacements, single teeth.
 class PartLoop {
  public:
@@ -84,6 +90,7 @@ class PartLoop {
   void remove_effect(std::size_t effect);
   [[nodiscard]] std::vector<FoundEffect> told() const;
   void ban_what_cannot_be_seen();
+  [[nodiscard]] bool is_within_reach(const Effect& effect) const;
   void ban_given();
   [[nodiscard]] bool is_rounding() const;
   void explain_what_is_left();
@@ -264,6 +271,9 @@ class PartLoop {
   [[nodiscard]] BesideForms beside_forms(const CourseOverFlanks& course) const;
   [[nodiscard]] std::vector<RemainderFinding> forms_around(const CourseOverFlanks& course,
                                                            int teeth) const;
+  /// True where one effect is nearly what others do together, or a named wave has the order of
+  /// evenly spaced swellings beside it, which are waves of that order: their sizes mean nothing.
+  [[nodiscard]] bool has_pieces_that_cancel() const;
   void take_form_around();
   void take_form_around(const CourseOverFlanks& course, int teeth);
   void drop_names_that_may_be_nothing();
@@ -288,6 +298,7 @@ class PartLoop {
   Patches patches_;
   std::vector<Effect> candidates_;
   std::vector<bool> banned_, unseen_;
+  std::array<FlankReach, 2> reach_;  ///< of the sides: 1 the one that lies counter-clockwise
   DiscoveryProblem problem_;         ///< of the candidates on the patches; without groups: not yet
   std::vector<Effect> problem_of_;   ///< candidates as they stand in it
   std::optional<Discovery> choice_;  ///< of problem_; its rest is not asked yet

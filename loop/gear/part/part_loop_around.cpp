@@ -51,8 +51,9 @@ bool is_from_tooth_to_tooth(const Effect& effect) {
 
 }  // namespace
 
-/// What stays, and the causes of which one may stand beside a form that goes from tooth to tooth:
-/// of heights, those that the answer names and an eccentricity; of slopes, also a tilt.
+/// What stays, and the causes that may stand beside a form that goes from tooth to tooth: of
+/// heights, those that the answer names, an eccentricity and the names of orders that it tells
+/// without one, up to three at once; of slopes, one of those that the answer names and a tilt.
 PartLoop::BesideForms PartLoop::beside_forms(const CourseOverFlanks& course) const {
   const bool heights = course.profile == 0.0 && course.face == 0.0;
   const auto tilts = [](const Effect& effect) {
@@ -64,6 +65,8 @@ PartLoop::BesideForms PartLoop::beside_forms(const CourseOverFlanks& course) con
            (heights ? moves_the_teeth(effect) && effect.shape.empty() : tilts(effect));
   };
   BesideForms found{.rest = {}, .causes = {{}}};
+  std::vector<Effect> names;
+  std::set<double> orders;
   for (std::size_t e = 0; e < effects_.size(); ++e) {
     const Effect& effect = effects_[e];
     const EffectFamily& family = *effect.family;
@@ -74,12 +77,33 @@ PartLoop::BesideForms PartLoop::beside_forms(const CourseOverFlanks& course) con
     if (e < first_told_here() || !around)
       found.rest.push_back(effect);
     else if (family.named)
-      found.causes.push_back({effect});
+      names.push_back(effect);
+    else if (effect.order() > 0.0)
+      orders.insert(effect.order());
   }
-  for (std::size_t c = 0; c < candidates_.size(); ++c)
-    if (moves(candidates_[c]) && !unseen_[c] &&
-        std::find(effects_.begin(), effects_.end(), candidates_[c]) == effects_.end())
-      found.causes.push_back({candidates_[c]});
+  const auto add = [&](const auto& is_one) {
+    for (std::size_t c = 0; c < candidates_.size(); ++c)
+      if (is_one(candidates_[c]) && !unseen_[c] &&
+          std::find(names.begin(), names.end(), candidates_[c]) == names.end())
+        names.push_back(candidates_[c]);
+  };
+  add(moves);
+  if (heights)
+    add([&](const Effect& effect) {
+      return effect.family->named && effect.flank == FlankChoice::kBoth && effect.columns() == 2 &&
+             is_from_tooth_to_tooth(effect) && orders.contains(effect.order());
+    });
+  constexpr std::size_t kMostNames = 5, kMostAtOnce = 3;
+  if (names.size() > kMostNames) names.resize(kMostNames);
+  for (std::size_t name = 0; name < names.size(); ++name) {
+    const std::size_t before = heights ? found.causes.size() : 1;
+    for (std::size_t set = 0; set < before; ++set) {
+      if (found.causes[set].size() == kMostAtOnce) continue;
+      std::vector<Effect> with = found.causes[set];
+      with.push_back(names[name]);
+      found.causes.push_back(std::move(with));
+    }
+  }
   return found;
 }
 
@@ -270,6 +294,22 @@ void PartLoop::take_form_around() {
     take_form_around({.face = 1.0}, helices);
 }
 
+bool PartLoop::has_pieces_that_cancel() const {
+  const auto fit = fit_of(effects_);
+  const auto is_part_of = [](const Effect& wave, const Effect& form) {
+    return wave.family->named && wave.order() > 0.0 && !form.shape.empty() &&
+           form.family->shape_names.front() == "number" &&
+           std::remainder(wave.order(), form.shape[0]) == 0.0;
+  };
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+    for (int k = 0; k < effects_[e].columns(); ++k)
+      if (!(fit->retained(fit->first_column(static_cast<int>(e)) + k) >= kToldApart)) return true;
+    for (const Effect& wave : effects_)
+      if (is_part_of(wave, effects_[e])) return true;
+  }
+  return false;
+}
+
 void PartLoop::take_form_around(const CourseOverFlanks& course, int teeth) {
   constexpr double kClearlyLess = 9.0;
   const auto cost = [](const PartLoop& part) {
@@ -288,7 +328,7 @@ void PartLoop::take_form_around(const CourseOverFlanks& course, int teeth) {
     options.start = {start};
     auto other = std::make_unique<PartLoop>(geometry_, table_, std::move(options));
     other->run();
-    if (!(cost(*other) < least)) continue;
+    if (!(cost(*other) < least) || other->has_pieces_that_cancel()) continue;
     least = cost(*other);
     best = std::move(other);
   }

@@ -3,6 +3,7 @@
 // Which effects are not asked about: what the data cannot show, what is given, what no gear can
 // have.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -23,6 +24,7 @@ struct Seen {
   bool several_heights = false;
   bool crossed = false;  ///< profiles at several heights, or helices at several diameters
   std::set<int> traced_teeth;
+  std::array<FlankReach, 2> reach;  ///< of the sides
 
   [[nodiscard]] int traced() const { return static_cast<int>(traced_teeth.size()); }
 };
@@ -48,6 +50,7 @@ Seen seen_in(const FlankGeometry& geometry, const Observations& table, const Pat
   struct OfRows {
     Seen seen;
     Range height_mm, diameters, heights;
+    std::array<Range, 2> roll_mm, face_mm;  ///< of traces and scans, by side
   };
   constexpr std::size_t kRowsOfWork = 65536;
   std::vector<OfRows> parts((table.rows.size() + kRowsOfWork - 1) / kRowsOfWork);
@@ -65,12 +68,18 @@ Seen seen_in(const FlankGeometry& geometry, const Observations& table, const Pat
       part.seen.along_face = part.seen.along_face || scan || helix;
       const Place& place = table.place(row);
       part.height_mm.take_in(place.z_mm);
+      if ((scan || helix || profile) && patches.patch_of_row[i] >= 0) {
+        const std::size_t side = place.side > 0 ? 1 : 0;
+        part.roll_mm[side].take_in(place.roll_mm);
+        part.face_mm[side].take_in(place.z_mm);
+      }
       if (helix) part.diameters.take_in(geometry.profile_coordinate(place.roll_mm));
       if (profile) part.heights.take_in(geometry.face_coordinate(place.z_mm));
     }
   });
   Seen seen;
   Range height_mm, diameters, heights;
+  std::array<Range, 2> roll_mm, face_mm;
   for (const OfRows& part : parts) {
     seen.whole_ring = seen.whole_ring || part.seen.whole_ring;
     seen.scanned = seen.scanned || part.seen.scanned;
@@ -79,10 +88,24 @@ Seen seen_in(const FlankGeometry& geometry, const Observations& table, const Pat
     height_mm.take_in(part.height_mm);
     diameters.take_in(part.diameters);
     heights.take_in(part.heights);
+    for (const std::size_t side : {0U, 1U}) {
+      roll_mm[side].take_in(part.roll_mm[side]);
+      face_mm[side].take_in(part.face_mm[side]);
+    }
+  }
+  for (const std::size_t side : {0U, 1U}) {
+    // (of a ring the roll falls towards the tip)
+    const double over_profile = geometry.profile_coordinate(roll_mm[side].most) -
+                                geometry.profile_coordinate(roll_mm[side].least);
+    const double over_face = geometry.face_coordinate(face_mm[side].most) -
+                             geometry.face_coordinate(face_mm[side].least);
+    seen.reach[side].profile = std::abs(over_profile) > kSeveral;
+    seen.reach[side].face = over_face > kSeveral;
   }
   const double lowest = std::min(1.0, geometry.face_coordinate(height_mm.least));
   const double highest = std::max(-1.0, geometry.face_coordinate(height_mm.most));
   seen.several_heights = highest > lowest + kSeveral;
+  for (FlankReach& reach : seen.reach) reach.heights = seen.several_heights;
   seen.crossed = seen.scanned || diameters.most > diameters.least + kSeveral ||
                  heights.most > heights.least + kSeveral;
   // Teeth that are held out tell nothing.
@@ -119,6 +142,7 @@ bool is_alike_on_all(const Effect& effect, const Seen& seen, int teeth) {
 /// nothing was measured along it, over the face likewise.
 void PartLoop::ban_what_cannot_be_seen() {
   const Seen seen = seen_in(geometry_, table_, patches_);
+  reach_ = seen.reach;
   const bool all_traced = seen.traced() >= geometry_.teeth();
   // Less than half a wave over the profile is a slope of it, and so is a whole one where the teeth
   // between were not traced: on traces with zeros of their own no machine's order can be read from
@@ -132,11 +156,25 @@ void PartLoop::ban_what_cannot_be_seen() {
     const Effect& effect = candidates_[g];
     const NeedsToBeSeen needs = effect.needs();
     if ((needs.along_profile && !seen.along_profile) || (needs.along_face && !seen.along_face) ||
-        (needs.several_heights && !seen.several_heights) || (needs.crossed && !seen.crossed) ||
-        aliases(effect, seen) || is_alike_on_all(effect, seen, geometry_.teeth()) ||
-        is_a_slope(effect))
+        (needs.crossed && !seen.crossed) || !is_within_reach(effect) || aliases(effect, seen) ||
+        is_alike_on_all(effect, seen, geometry_.teeth()) || is_a_slope(effect))
       banned_[g] = true;
   }
+}
+
+/// True where values of one of its flanks differ in every direction in which the effect has a
+/// course or a place: with all of them at one height its size would be that where nothing was
+/// measured.
+bool PartLoop::is_within_reach(const Effect& effect) const {
+  const NeedsToBeSeen needs = effect.needs();
+  for (const int side : {0, 1}) {
+    const FlankReach& reach = reach_[static_cast<std::size_t>(side)];
+    if ((effect.flank == FlankChoice::kBoth || effect.flank == flank_choice(geometry_, side)) &&
+        (reach.profile || !needs.along_profile) && (reach.face || !needs.along_face) &&
+        (reach.heights || !needs.several_heights))
+      return true;
+  }
+  return false;
 }
 
 /// What is given does not enter again, nor at a neighbouring shape.

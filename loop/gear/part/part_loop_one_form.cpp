@@ -113,8 +113,12 @@ std::vector<Effect> PartLoop::with_best_form(std::vector<Effect> rest,
     std::vector<EffectShape> shapes;
     std::size_t next = first;
     for (; next < forms.size() && forms[next].family == family; ++next)
-      shapes.push_back(forms[next].shape);
+      if (is_within_reach(forms[next])) shapes.push_back(forms[next].shape);
     rest.back() = forms[first];
+    if (shapes.empty()) {
+      first = next;
+      continue;
+    }
     const TrialFit fit(geometry_, table_, patches_, rest, 1, cells_for(geometry_, rest));
     const std::vector<TrialFit::Trial> trials = fit.with_shapes(at, shapes, 1e300);
     Best own{.square = most.on_the_grid};
@@ -176,7 +180,8 @@ std::vector<Effect> PartLoop::one_form_for(const std::vector<std::size_t>& these
   std::erase_if(tried, [&](const Effect& form) {
     return values_of({form}, true) + values_of(beside, true) > values_of(own, true) + more_values;
   });
-  if (tried.empty()) return {};
+  const auto out_of_reach = [this](const Effect& form) { return !is_within_reach(form); };
+  if (tried.empty() || std::any_of(beside.begin(), beside.end(), out_of_reach)) return {};
   std::vector<Effect> rest = others;
   rest.insert(rest.end(), beside.begin(), beside.end());
   std::stable_sort(tried.begin(), tried.end(),
@@ -356,8 +361,9 @@ bool PartLoop::tell_as_form_of_other_flanks(int face) {
     sets.front().insert(sets.front().end(), levels.begin(), levels.end());
     std::sort(sets.front().begin(), sets.front().end());
   }
+  // (beside a form of one flank the others may be one of the other)
   for (const std::size_t e : all)
-    if (effects_[e].family->named && all.size() > 2) {
+    if ((effects_[e].family->named || effects_[e].flank != FlankChoice::kBoth) && all.size() > 2) {
       sets.push_back(all);
       std::erase(sets.back(), e);
     }
@@ -464,9 +470,7 @@ bool PartLoop::tell_as_bow() {
     curved = curved || effect.family->shape_is_step || (form && effect.needs().along_face);
   }
   if (!curved) return false;
-  std::vector<Effect> bows;
-  for (const double held_at : {-1.0, 0.0, 1.0, 2.0})
-    bows.push_back({find_family("unnamed_bow"), FlankChoice::kBoth, {held_at}});
+  const std::vector<Effect> bows = bows_of_the_axis();
   if (put_one_form_for(all, bows)) return true;
   for (const std::size_t kept : all) {
     if (!effects_[kept].family->named || effects_[kept].family->shape_is_step) continue;

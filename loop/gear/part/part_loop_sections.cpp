@@ -10,6 +10,7 @@
 
 #include "trueflank/base/units.h"
 #include "trueflank/loop/gear/local/section_waves.h"
+#include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/part/runs_along.h"
 
@@ -163,13 +164,11 @@ std::vector<Effect> PartLoop::with_sections_aside(std::vector<std::size_t>& thes
                            FlankChoice::kBoth,
                            {wave.wavelength_mm, std::fmod(wave.towards_deg + 90.0, 180.0), 0.0}}});
   }
+  keep_best(kinks_of_the_axis(geometry_), {});
   if (best.empty()) return {};
   // A bent axis is told as that (tell_as_bow).
-  std::vector<Effect> bows;
-  for (const double held_at : {-1.0, 0.0, 1.0, 2.0})
-    bows.push_back({find_family("unnamed_bow"), FlankChoice::kBoth, {held_at}});
   std::vector<std::size_t> set;
-  const std::vector<Effect> bent = cheapest_one_form(sets, bows, {}, set);
+  const std::vector<Effect> bent = cheapest_one_form(sets, bows_of_the_axis(), {}, set);
   if (!bent.empty() && cost_of(bent) < least) return {};
   return best;
 }
