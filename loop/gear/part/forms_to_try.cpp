@@ -31,15 +31,15 @@ std::vector<Effect> rises_at_both_ends(const FlankGeometry& geometry, double fac
 
 /// Strips between two places, to start from.
 std::vector<Effect> strips(const FlankGeometry& geometry, double face, FlankChoice flank) {
-  constexpr int kParts = 12;
+  constexpr int kStarts = 12;
   constexpr double kSides = 0.03;
   const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
   const auto at = [&](int part) {
-    return place_at(geometry, face, static_cast<double>(part) / kParts);
+    return place_at(geometry, face, static_cast<double>(part) / kStarts);
   };
   std::vector<Effect> forms;
-  for (int from = 1; from < kParts; ++from)
-    for (int to = from + 1; to < kParts; ++to)
+  for (int from = 1; from < kStarts; ++from)
+    for (int to = from + 1; to < kStarts; ++to)
       forms.push_back({find_family("unnamed_strip"),
                        flank,
                        {face, at(from), at(to),

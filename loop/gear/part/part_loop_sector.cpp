@@ -234,7 +234,7 @@ std::vector<Effect> PartLoop::with_sector(std::vector<std::size_t>& these) {
 /// A sector, or a swelling about its middle, for these effects: the one with sharp edges where that
 /// says as much. Of what stands on single teeth one with soft edges is tried for what is at these.
 std::vector<Effect> PartLoop::with_sector_for(std::vector<std::size_t>& these, bool opposite) {
-  constexpr double kPlaces = 16.0, kClearly = 9.0;  // where a sharp one begins and ends; chi-square
+  constexpr double kEdges = 16.0, kClearly = 9.0;  // where a sharp one begins and ends; chi-square
   const std::vector<Effect> forms = sectors_in_place_of(these, opposite);
   if (forms.empty()) return {};
   std::vector<std::size_t> with_edges = these, sharp = these;
@@ -244,7 +244,7 @@ std::vector<Effect> PartLoop::with_sector_for(std::vector<std::size_t>& these, b
   std::vector<Effect> hard;
   if (sharp.size() > 1) hard = one_form_for(sharp, forms);
   std::vector<Effect> soft = with_soft_sector(with_edges, forms[0]);
-  if (!soft.empty() && (hard.empty() || cost_of(soft) < cost_of(hard) + kPlaces - kClearly)) {
+  if (!soft.empty() && (hard.empty() || cost_of(soft) < cost_of(hard) + kEdges - kClearly)) {
     these = std::move(with_edges);
     return soft;
   }
