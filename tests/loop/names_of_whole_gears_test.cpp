@@ -85,5 +85,24 @@ TEST(NamesOfWholeGears, ATaperBesideAThicknessThatWobbles) {
   EXPECT_NEAR(parameter(*find(result, "taper"), "slope_um").value, -4.2, 0.2) << list(result);
 }
 
+// A little that may be left does not keep an answer that leaves several times more.
+TEST(NamesOfWholeGears, AScaleAndALeadBesideDirtOnOneSide) {
+  constexpr double kPercent = -0.54, kTowards = 4.38;
+  const MadeGear gear = spur(19);
+  const auto dirt = [=](const MadeGear& g, const FlankSpot& s, const Vec3&) {
+    const Vec3 n = normal_at(g, s);
+    const double facing = n[0] * std::cos(kTowards) + n[1] * std::sin(kTowards);
+    return (facing > 0.0 ? 24.7 * facing * facing : 0.0) - 10.4 * s.v * s.side;
+  };
+  const auto result =
+      close(gear, scan_of(gear, {scaled(kPercent), grown(dirt)}, scanned(11000, 2.5, 10)), true);
+  ASSERT_NE(find(result, "scale"), nullptr) << list(result);
+  EXPECT_NEAR(parameter(*find(result, "scale"), "percent").value, kPercent, 0.01) << list(result);
+  ASSERT_NE(find(result, "helix_error"), nullptr) << list(result);
+  EXPECT_NEAR(parameter(*find(result, "helix_error"), "slope_um").value, -20.8, 0.6)
+      << list(result);
+  EXPECT_TRUE(tells_of(result, "flanks that face towards 251 deg stand out")) << list(result);
+}
+
 }  // namespace
 }  // namespace trueflank::test

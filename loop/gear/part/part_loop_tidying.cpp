@@ -370,11 +370,13 @@ int values_of(const std::vector<Effect>& effects, bool places_too) {
 }
 
 /// Makes the whole choice again in another way. It is taken over where it has names alone, so many
-/// values fewer, leaves no more, and nothing is left that a form would say.
+/// values fewer, leaves no more, and nothing is left that a form would say, or far less than
+/// before.
 bool PartLoop::adopt_if_simpler(Options options, int least_spared) {
   // Chi-square: three standard errors, and what a column more takes out by chance; a thousandth of
   // the error is no loss.
   constexpr double kNothing = 9.0, kByChance = 4.0, kNoLoss = 1e-3;
+  constexpr double kFarLess = 0.5;  // of the error's square
   options.given.resize(first_told_here());
   SharedTable measured = table_;
   if (measured->is_displaced) undo_displacement(geometry_, measured.own());
@@ -402,7 +404,7 @@ bool PartLoop::adopt_if_simpler(Options options, int least_spared) {
   const double loss = n * (std::pow(after.rms_um / before.rms_um, 2) - 1.0);
   if (loss > (with_forms ? 0.0 : kNothing + kByChance * spared + kNoLoss * n)) return false;
   names.remainder_ = names.remainder_of(names.effects_, RemainderOf::kAll);
-  if (names.structure_is_left()) return false;
+  if (names.structure_is_left() && !(loss < -kFarLess * n)) return false;
   take_over(names);
   return true;
 }
