@@ -165,11 +165,12 @@ std::vector<Effect> PartLoop::with_phase_of_each_flank(std::vector<std::size_t>&
   constexpr double kClearly = 25.0;   // chi-square
   constexpr double kAlike = 2.0;      // sizes on both flanks
   if (!is_traced(table_)) return {};  // scans show all teeth: waves of one flank are found in them
-  std::vector<std::vector<std::size_t>> sets(1);
+  std::vector<std::vector<std::size_t>> sets;
+  std::vector<std::size_t> of_both;
   for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
     if (!effects_[e].family->tells_order_along_profile) continue;
     if (effects_[e].flank == FlankChoice::kBoth) {
-      sets.front().push_back(e);
+      of_both.push_back(e);
       sets.push_back({e});
       continue;
     }
@@ -178,13 +179,13 @@ std::vector<Effect> PartLoop::with_phase_of_each_flank(std::vector<std::size_t>&
       if (effects_[f].family == effects_[e].family && effects_[f].shape == effects_[e].shape)
         sets.push_back({e, f});
   }
+  if (of_both.size() > 1) sets.insert(sets.begin(), of_both);
   std::vector<Effect> best;
   double least = cost_of(effects_) - kClearly;
   // (the library has the way the teeth are counted first, then the other one)
   for (const EffectFamily& family : effect_library()) {
     if (!family.tells_order_along_profile) continue;
     for (const std::vector<std::size_t>& set : sets) {
-      if (set.empty() || (set.size() == 1 && &set == &sets.front())) continue;
       std::vector<Effect> with = with_pair_for(set, family);
       const double cost = cost_of(with);
       if (!(cost < least)) continue;
@@ -198,7 +199,8 @@ std::vector<Effect> PartLoop::with_phase_of_each_flank(std::vector<std::size_t>&
       these = set;
       best = std::move(with);
     }
-    least -= best.empty() ? 0.0 : kClearly;
+    // The other way must say clearly more than this one.
+    if (!best.empty()) least -= kClearly;
   }
   return best;
 }

@@ -4,8 +4,8 @@
 #include <memory>
 #include <utility>
 
-#include "trueflank/loop/gear/fit/effect_values.h"
 #include "trueflank/loop/gear/observations.h"
+#include "trueflank/loop/gear/table/effect_values.h"
 
 namespace trueflank::loop {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/fit/effect_values.h"
+#include "trueflank/loop/gear/table/effect_values.h"
 
 #include <bit>
 #include <utility>
