@@ -110,6 +110,9 @@ struct EffectFamily : EffectFacts {
   bool shows_in_sizes = false;    ///< span, over pins, diameters tell it
   int penalty_of_traces = 0;      ///< on top of the preference where only traces were measured
   std::function<double(const EffectShape&)> complexity = {};  ///< among equals the simplest wins
+  /// Of a form without a name: how many of its shape values were sought among all numbers, as
+  /// places and widths are. Empty: the numbers among its term_keys.
+  std::function<int(const EffectShape&)> values_sought = {};
   /// @}
 
   /// @name How it is told

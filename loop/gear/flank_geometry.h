@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -181,6 +182,11 @@ inline FlankGeometry::Undirected FlankGeometry::found_at(const Foot<OneAtATime>&
   place.normal_direction = foot.normal_direction;
   found.is_directed = true;
   return found;
+}
+
+/// In which of so many equal parts of the profile or the face a coordinate (-1 ... 1) lies, from 0.
+[[nodiscard]] inline int part_of(double coordinate, int parts) {
+  return std::clamp(static_cast<int>(0.5 * (coordinate + 1.0) * parts), 0, parts - 1);
 }
 
 }  // namespace trueflank::loop

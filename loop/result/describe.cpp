@@ -25,6 +25,17 @@ std::pair<Parameter, Parameter> wave_parameters(const EffectFacts& facts, double
           {facts.parameters[1], phase, phase - spread, phase + spread}};
 }
 
+namespace {
+
+/// Which of a key's words a shape value means.
+std::size_t word_of(const TermKey& key, double value) {
+  return value == 0.0 ? 0
+                      : std::clamp<std::size_t>(static_cast<std::size_t>(std::abs(value)), 1,
+                                                key.words.size() - 1);
+}
+
+}  // namespace
+
 Term term_of(const EffectFacts& facts, const std::vector<double>& shape) {
   Term term;
   term.shape = shape;
@@ -34,7 +45,9 @@ Term term_of(const EffectFacts& facts, const std::vector<double>& shape) {
     switch (key.kind) {
       case TermKey::Kind::kInteger: term.keys.emplace_back(key.name, static_cast<int>(shape[k])); break;
       case TermKey::Kind::kNumber: term.keys.emplace_back(key.name, shape[k]); break;
-      case TermKey::Kind::kWord: term.keys.emplace_back(key.name, key.words[shape[k] != 0.0 ? 1 : 0]); break;
+      case TermKey::Kind::kWord:
+        term.keys.emplace_back(key.name, key.words.at(word_of(key, shape[k])));
+        break;
     }
   }
   return term;

@@ -26,7 +26,7 @@ struct TermKey {
   enum class Kind { kInteger, kNumber, kWord };
   std::string name;
   Kind kind = Kind::kInteger;
-  std::array<std::string, 2> words = {};  ///< kWord: for 0 and for anything else
+  std::vector<std::string> words = {};  ///< kWord: for 0, for 1 (and all beyond the last), ...
 };
 
 /// What is known of one kind of effect before any data. One object in one file of effects/.

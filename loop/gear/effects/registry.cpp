@@ -63,6 +63,8 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_facing_one_side(),
         unnamed_wobble(),
         unnamed_one_side(),
+        unnamed_crossed(),
+        unnamed_crossed_around(),
         unnamed_swellings_at_end(),
         unnamed_reversal(),
         unnamed_moved_sector(),

@@ -18,10 +18,6 @@ constexpr int kOrders = 1999, kProfileParts = 5, kFaceParts = 8, kFewestNeighbou
 /// A place on a flank, the same on every tooth: kind of record, source, profile part, face part.
 using PlaceKey = std::array<int, 4>;
 
-int part_of(double coordinate, int parts) {
-  return std::clamp(static_cast<int>(0.5 * (coordinate + 1.0) * parts), 0, parts - 1);
-}
-
 /// Mean residual of every place and tooth of one flank, less the place's mean over the teeth.
 struct FlankResidual {
   std::map<PlaceKey, Eigen::VectorXd> sum, weight;

@@ -30,10 +30,6 @@ bool is_single(ObservationKind kind) {
          kind == ObservationKind::kSize;
 }
 
-int part_of(double coordinate, int parts) {
-  return std::clamp(static_cast<int>(0.5 * (coordinate + 1.0) * parts), 0, parts - 1);
-}
-
 /// Numbers 0 ... n-1 in an order that no wave follows; the same every time.
 std::vector<int> shuffled(int n) {
   std::vector<int> order(n);

@@ -20,10 +20,6 @@ struct Mean {
   [[nodiscard]] double value() const { return count > 0.0 ? sum / count : kNaN; }
 };
 
-int part_of(double coordinate) {
-  return std::clamp(static_cast<int>(0.5 * (coordinate + 1.0) * kParts), 0, kParts - 1);
-}
-
 struct FlankMeans {
   std::array<Mean, kParts> profile, helix;
   Mean place, index;
@@ -84,8 +80,8 @@ std::array<ResidualGrid, count> grids_of(
       const Observation& row = closed.table.rows[i];
       const Place& place = closed.table.place(row);
       const auto tooth = static_cast<std::size_t>(place.tooth - 1),
-                 u = static_cast<std::size_t>(part_of(g.profile_coordinate(place.roll_mm))),
-                 v = static_cast<std::size_t>(part_of(g.face_coordinate(place.z_mm)));
+                 u = static_cast<std::size_t>(part_of(g.profile_coordinate(place.roll_mm), kParts)),
+                 v = static_cast<std::size_t>(part_of(g.face_coordinate(place.z_mm), kParts));
       for (std::size_t k = 0; k < count; ++k)
         means[k].add(row, tooth, side, u, v, static_cast<double>((*residuals_um[k])[i]));
     });

@@ -251,6 +251,7 @@ bool PartLoop::take_up_whole_forms() {
   if (with.empty()) with = with_sections_aside(these);
   if (with.empty()) with = with_one_side(these);
   if (with.empty()) with = with_reversal(these);
+  if (with.empty()) with = with_products(these);
   if (with.empty()) with = with_phase_of_each_flank(these);
   if (with.empty()) {
     with = with_sector(these);

@@ -359,7 +359,9 @@ int values_of(const std::vector<Effect>& effects, bool places_too) {
     const EffectFamily& family = *effect.family;
     values += effect.columns();
     if (!places_too) continue;
-    if (family.named || !family.form_word.empty())
+    if (family.values_sought)
+      values += family.values_sought(effect.shape);
+    else if (family.named || !family.form_word.empty())
       values += family.shape_is_continuous ? static_cast<int>(effect.shape.size()) : 0;
     else
       values += static_cast<int>(

@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/effects/flank_course.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/base/number_text.h"
+#include "trueflank/base/units.h"
+#include "trueflank/loop/gear/effects/along_flank.h"
+
+namespace trueflank::loop::gear_effects {
+namespace {
+
+// Shares of the profile or the face: a course that begins or ends nearer to an end, or is narrower,
+// is none of its kind.
+constexpr double kNearestEnd = 0.04, kNarrowest = 0.03, kWidest = 0.4, kShortest = 0.02,
+                 kLongest = 0.6, kLongestOfBoth = 0.2;
+
+double share_of(const FlankGeometry& g, double face, double place_mm) {
+  const double low = end_mm(g, face, -1.0), high = end_mm(g, face, 1.0);
+  return (stands_at(g, face, place_mm) - low) / (high - low);
+}
+
+/// Roll length becomes a diameter.
+double place_at_share(const FlankGeometry& g, double face, double share) {
+  const double low = end_mm(g, face, -1.0), high = end_mm(g, face, 1.0);
+  const double at = low + share * (high - low);
+  return face != 0.0 ? at : 2.0 * g.on_flank(1, 1, at, 0.0).radius_mm;
+}
+
+}  // namespace
+
+void FlankCourse::put_in(EffectShape& shape, std::size_t first) const {
+  shape[first] = static_cast<double>(kind);
+  shape[first + 1] = mm;
+  shape[first + 2] = towards;
+  shape[first + 3] = half_mm;
+}
+
+double FlankCourse::value(const FlankGeometry& g, double face, double at_mm) const {
+  const double low = end_mm(g, face, -1.0), high = end_mm(g, face, 1.0);
+  const double across = (2.0 * at_mm - low - high) / (high - low);
+  const double end = towards > 0.0 ? high : low;
+  const auto beyond = [&] {  // of the way from its place to the end
+    const double from = stands_at(g, face, mm);
+    return end != from ? std::max(0.0, (at_mm - from) / (end - from)) : 0.0;
+  };
+  const auto dies = [&](double from) { return std::exp(-std::abs(at_mm - from) / mm); };
+  switch (kind) {
+    case kWhole:
+      return 1.0;
+    case kSlope:
+      return across;
+    case kStep: {
+      const double off = (at_mm - stands_at(g, face, mm)) * (high > low ? towards : -towards);
+      return half_mm > 0.0 ? 0.5 * (1.0 + std::tanh(off / half_mm)) : off > 0.0 ? 1.0 : 0.0;
+    }
+    case kKink:
+      return beyond();
+    case kBend:
+      return beyond() * beyond();
+    case kRise:
+      return towards != 0.0 ? dies(end) : dies(low) + dies(high);
+    case kBand:
+      return bell(at_mm - stands_at(g, face, mm), half_mm);
+    case kBow:
+      return across * across;
+  }
+  return 0.0;
+}
+
+int FlankCourse::values_sought() const {
+  switch (kind) {
+    case kWhole:
+    case kSlope:
+    case kBow:
+      return 0;
+    case kBand:
+      return 2;
+    case kStep:
+      return half_mm > 0.0 ? 2 : 1;
+    default:
+      return 1;
+  }
+}
+
+std::vector<FlankCourse> FlankCourse::beside(const FlankGeometry& g, double face) const {
+  const double range = std::abs(range_mm(g, face));
+  std::vector<FlankCourse> courses;
+  const auto add = [&](FlankCourse course) {
+    const Kind own = course.kind;
+    if (own == kRise) {
+      const double longest = course.towards != 0.0 ? kLongest : kLongestOfBoth;
+      if (course.mm < kShortest * range || course.mm > longest * range) return;
+    } else {
+      const double share = share_of(g, face, course.mm);
+      const double from = own == kBand           ? 0.0
+                          : course.towards > 0.0 ? 0.0
+                                                 : kNearestEnd,
+                   to = own == kBand           ? 1.0
+                        : course.towards > 0.0 ? 1.0 - kNearestEnd
+                                               : 1.0;
+      const bool step = own == kStep;
+      if (share < (step ? kNearestEnd : from) - 1e-9 ||
+          share > (step ? 1.0 - kNearestEnd : to) + 1e-9)
+        return;
+      if (own == kBand && (course.half_mm < kNarrowest * range || course.half_mm > kWidest * range))
+        return;
+    }
+    courses.push_back(course);
+  };
+  const Kind own = kind;
+  if (own == kWhole || own == kSlope || own == kBow) return courses;
+  if (own == kRise) {
+    for (const double times : {0.7, 0.85, 0.95, 0.99, 1.01, 1.05, 1.18, 1.43})
+      add({kind, times * mm, towards});
+    if (towards != 0.0) {
+      const double length = std::min(0.9, 2.0 * mm / range);
+      const double place = place_at_share(g, face, towards > 0.0 ? 1.0 - length : length);
+      add({kKink, place, towards});
+      add({kBend, place, towards});
+    }
+    return courses;
+  }
+  const double share = share_of(g, face, mm);
+  for (const double off : {0.05, 0.02, 0.01, 0.005, 0.002, 0.0007})
+    for (const double sign : {-1.0, 1.0}) {
+      const double moved = std::clamp(share + sign * off, 0.0, 1.0);
+      add({kind, place_at_share(g, face, moved), towards, half_mm});
+    }
+  if (own == kStep) {
+    constexpr double kSharpest = 0.005, kSoftest = 0.05;
+    for (const double half :
+         {0.0, 0.5 * half_mm, 0.7 * half_mm, 1.4 * half_mm, 2.0 * half_mm, 0.01 * range})
+      if (half != half_mm &&
+          (half == 0.0 || (half >= kSharpest * range && half <= kSoftest * range)))
+        add({kind, mm, towards, half});
+  }
+  if (own == kBand)
+    for (const double times : {0.7, 0.88, 0.96, 1.04, 1.14, 1.43})
+      add({kind, mm, towards, times * half_mm});
+  if (own == kKink || own == kBend) {
+    add({own == kKink ? kBend : kKink, mm, towards});
+    const double length = towards > 0.0 ? 1.0 - share : share;
+    for (const double times : {0.3, 0.5}) add({kRise, times * length * range, towards});
+    // (the farther off it begins, the nearer to a square)
+    for (const double longer : {0.7, 1.4}) {
+      const double from =
+          std::clamp(towards > 0.0 ? 1.0 - longer * length : longer * length, 0.0, 1.0);
+      add({own == kKink ? kBend : kKink, place_at_share(g, face, from), towards});
+    }
+  }
+  return courses;
+}
+
+std::string FlankCourse::words(const FlankGeometry& g, double face) const {
+  const Kind own = kind;
+  const std::string where = own == kWhole || own == kSlope || own == kBow || own == kRise
+                                ? ""
+                                : at_place(g, face, mm).substr(3);  // without "at "
+  const std::string to = gear_effects::towards(face, towards);
+  switch (own) {
+    case kWhole:
+    case kSlope:
+      return "";
+    case kStep:
+      return (towards > 0.0 ? (face != 0.0 ? "above " : "beyond ")
+                            : (face != 0.0 ? "below " : "below ")) +
+             where + " only";
+    case kKink:
+      return "more and more evenly from " + where + " on" + to;
+    case kBend:
+      return "more and more by the square from " + where + " on" + to;
+    case kRise: {
+      const std::string ends = face != 0.0 ? (towards == 0.0  ? "both ends of the face"
+                                              : towards > 0.0 ? "the upper end"
+                                                              : "the lower end")
+                                           : (towards == 0.0  ? "root and tip"
+                                              : towards > 0.0 ? "the tip"
+                                                              : "the root");
+      return "dying away from " + ends + " " + within(g, face, mm, "within ", "");
+    }
+    case kBand:
+      return "about " + where + ", " + within(g, face, half_mm, "", " to either side");
+    case kBow:
+      return std::string("more and more towards ") +
+             (face != 0.0 ? "both ends of the face" : "root and tip");
+  }
+  return "";
+}
+
+std::vector<std::string> FlankCourse::kind_words() {
+  return {"whole", "slope", "step", "kink", "bend", "rise", "band", "bow"};
+}
+
+void AroundCourse::put_in(EffectShape& shape, std::size_t first) const {
+  shape[first] = static_cast<double>(kind);
+  shape[first + 1] = towards_deg;
+  shape[first + 2] = half_deg;
+}
+
+double AroundCourse::value(const FlankGeometry& g, int tooth) const {
+  const double off = std::remainder(g.centre_rad(tooth) - rad_from_deg(towards_deg), kTwoPi);
+  const double half = rad_from_deg(half_deg);
+  switch (kind) {
+    case kHalf:
+      return std::max(0.0, std::cos(off));
+    case kRaised:
+      return 0.5 * (1.0 + std::cos(off));
+    case kBell:
+      return bell(off, half);
+    case kSector:
+      return std::abs(off) < half ? 1.0 : 0.0;
+    case kRamp: {
+      constexpr double kRounding = 1e-9;
+      const double from = off < -kRounding ? off + kTwoPi : std::max(0.0, off);
+      return from / (kTwoPi - kTwoPi / g.teeth());
+    }
+    case kWave:
+      return std::cos(kPi * off / half);
+  }
+  return 0.0;
+}
+
+std::vector<AroundCourse> AroundCourse::beside(const FlankGeometry& g) const {
+  constexpr double kNarrowest_deg = 15.0, kWidest_deg = 100.0;
+  const double pitch_deg = 360.0 / g.teeth();
+  std::vector<AroundCourse> courses;
+  const auto add = [&](const AroundCourse& course) {
+    if (course.kind == kBell && (course.half_deg < kNarrowest_deg || course.half_deg > kWidest_deg))
+      return;
+    // (of all teeth but one, or of one, it is another form)
+    if (course.kind == kSector &&
+        (course.half_deg < pitch_deg || course.half_deg > 180.0 - pitch_deg))
+      return;
+    courses.push_back(course);
+  };
+  if (kind == kSector || kind == kRamp) {
+    for (const double teeth : {-4.0, -2.0, -1.0, -0.5, 0.5, 1.0, 2.0, 4.0}) {
+      if (kind == kRamp && teeth != std::floor(teeth)) continue;
+      add({kind, towards_deg + teeth * pitch_deg, half_deg});
+      if (kind == kRamp) continue;
+      add({kind, towards_deg, half_deg + teeth * pitch_deg});
+      for (const double sign : {-1.0, 1.0})
+        add({kind, towards_deg + 0.5 * teeth * pitch_deg,
+             half_deg + 0.5 * sign * teeth * pitch_deg});
+    }
+    return courses;
+  }
+  const double scale = kind == kWave ? half_deg / 180.0 : 1.0;
+  for (const double off : {-20.0, -7.0, -2.0, -0.7, 0.7, 2.0, 7.0, 20.0})
+    add({kind, towards_deg + scale * off, half_deg});
+  if (kind == kWave) return courses;
+  for (const Kind other : {kHalf, kRaised})
+    if (kind != other) add({other, towards_deg, 0.0});
+  if (kind == kBell)
+    for (const double times : {0.7, 0.85, 0.95, 1.05, 1.18, 1.43})
+      add({kind, towards_deg, times * half_deg});
+  else
+    for (const double half : {50.0, 65.0, 80.0}) add({kBell, towards_deg, half});
+  return courses;
+}
+
+std::string AroundCourse::words(const FlankGeometry& g) const {
+  const double turned = std::fmod(std::fmod(towards_deg, 360.0) + 360.0, 360.0);
+  const std::string towards = printed("towards %.0f deg", turned);
+  switch (kind) {
+    case kHalf:
+      return "on the teeth " + towards +
+             " and less and less to either side, none on the other half";
+    case kRaised:
+      return "most on the teeth " + towards + ", less and less to none on those opposite";
+    case kBell:
+      return "on the teeth " + towards +
+             printed(", dying away over %.2g deg to either side", half_deg);
+    case kSector: {
+      int first = 0, count = 0;
+      for (int tooth = 1; tooth <= g.teeth(); ++tooth) {
+        if (value(g, tooth) == 0.0) continue;
+        ++count;
+        if (value(g, tooth == 1 ? g.teeth() : tooth - 1) == 0.0) first = tooth;
+      }
+      return printed("on %d teeth from tooth %d on", count, first);
+    }
+    case kRamp: {
+      int first = 1;
+      for (int tooth = 2; tooth <= g.teeth(); ++tooth)
+        if (value(g, tooth) < value(g, first)) first = tooth;
+      return printed("from tooth %d on more and more from tooth to tooth, once around", first);
+    }
+    case kWave: {
+      const int order = static_cast<int>(std::lround(180.0 / half_deg));
+      return (order == 1   ? std::string("once")
+              : order == 2 ? std::string("twice")
+                           : printed("%d times", order)) +
+             " per turn, most " + printed("at %.0f deg", std::fmod(turned, 360.0 / order)) +
+             (order > 1 ? " first" : "");
+    }
+  }
+  return "";
+}
+
+std::vector<std::string> AroundCourse::kind_words() {
+  return {"half", "raised", "bell", "sector", "ramp", "wave"};
+}
+
+std::vector<AroundCourse> courses_around(const FlankGeometry& g) {
+  constexpr int kMostWaves = 4;
+  std::vector<AroundCourse> courses{
+      {AroundCourse::kHalf}, {AroundCourse::kRaised}, {AroundCourse::kRamp}};
+  for (const double half : {25.0, 40.0, 60.0, 85.0})
+    courses.push_back({AroundCourse::kBell, 0.0, half});
+  const double pitch_deg = 360.0 / g.teeth();
+  for (double half = 1.5 * pitch_deg; half < 180.0 - pitch_deg;
+       half = std::max(half + 0.5 * pitch_deg, 1.25 * half))
+    courses.push_back({AroundCourse::kSector, 0.0, half});
+  for (int order = 1; order <= kMostWaves && 3 * order <= g.teeth(); ++order)
+    courses.push_back({AroundCourse::kWave, 0.0, 180.0 / order});
+  return courses;
+}
+
+std::vector<FlankCourse> courses_over(const FlankGeometry& g, double face) {
+  constexpr int kPlaces = 12;
+  const double range = std::abs(range_mm(g, face));
+  std::vector<FlankCourse> courses{{FlankCourse::kSlope}, {FlankCourse::kBow}};
+  for (int i = 0; i <= kPlaces; ++i) {
+    const double share = static_cast<double>(i) / kPlaces, place = place_at_share(g, face, share);
+    for (const double towards : {-1.0, 1.0}) {
+      const double length = towards > 0.0 ? 1.0 - share : share;
+      if (i > 0 && i < kPlaces) courses.push_back({FlankCourse::kStep, place, towards});
+      if (length < 0.1) continue;
+      courses.push_back({FlankCourse::kKink, place, towards});
+      courses.push_back({FlankCourse::kBend, place, towards});
+    }
+    for (const double half : {0.06, 0.1, 0.16, 0.25})
+      courses.push_back({FlankCourse::kBand, place, 0.0, half * range});
+  }
+  for (const double towards : {-1.0, 0.0, 1.0})
+    for (const double within : {0.04, 0.07, 0.12, 0.18, 0.3})
+      if (towards != 0.0 || within <= kLongestOfBoth)
+        courses.push_back({FlankCourse::kRise, within * range, towards});
+  return courses;
+}
+
+}  // namespace trueflank::loop::gear_effects

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A course over the profile times one over the face; the same on every tooth, or most on the teeth
+// towards one direction.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "trueflank/base/number_text.h"
+#include "trueflank/base/units.h"
+#include "trueflank/loop/gear/effects/along_flank.h"
+#include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/effects/flank_course.h"
+#include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/effects/sign_words.h"
+
+namespace trueflank::loop::gear_effects {
+namespace {
+
+constexpr std::size_t kProfile = 0, kFace = FlankCourse::kValues,
+                      kOpposite = 2 * FlankCourse::kValues, kAround = kOpposite + 1;
+
+double on_a_flank(const FlankGeometry& g, const Place& p, const EffectShape& shape) {
+  if (p.surface != Surface::kFlank) return 0.0;
+  const double profile = FlankCourse::at(shape, kProfile).value(g, 0.0, p.roll_mm);
+  return profile == 0.0 ? 0.0
+                        : (shape[kOpposite] != 0.0 ? p.side : 1) * profile *
+                              FlankCourse::at(shape, kFace).value(g, 1.0, p.z_mm);
+}
+
+bool has(const EffectShape& shape, std::size_t course) {
+  return FlankCourse::at(shape, course).kind != FlankCourse::kWhole;
+}
+
+NeedsToBeSeen needs_of(const EffectShape& shape) {
+  const bool profile = has(shape, kProfile), face = has(shape, kFace);
+  return {.along_profile = profile, .along_face = face, .crossed = profile && face};
+}
+
+std::vector<EffectShape> courses_beside(const FlankGeometry& g, const EffectShape& shape) {
+  std::vector<EffectShape> shapes;
+  for (const auto& [first, face] : {std::pair(kProfile, 0.0), std::pair(kFace, 1.0)})
+    for (const FlankCourse& course : FlankCourse::at(shape, first).beside(g, face)) {
+      shapes.push_back(shape);
+      course.put_in(shapes.back(), first);
+    }
+  return shapes;
+}
+
+/// What the courses do, and where: "the profile leans: more material at the tip, above a height of
+/// 8 mm only".
+std::string words_of_courses(const ToldForm& told) {
+  const EffectShape& shape = told.shape;
+  const bool opposite = shape[kOpposite] != 0.0;
+  const FlankCourse profile = FlankCourse::at(shape, kProfile),
+                    face = FlankCourse::at(shape, kFace);
+  const bool leans = profile.kind == FlankCourse::kSlope, turns = face.kind == FlankCourse::kSlope;
+  std::vector<std::string> where;
+  if (!leans) where.push_back(profile.words(told.geometry, 0.0));
+  if (!turns) where.push_back(face.words(told.geometry, 1.0));
+  std::erase(where, "");
+  std::string text = leans && turns ? "the flanks are twisted"
+                     : leans        ? "the profile leans"
+                     : turns        ? "the flanks slope over the face"
+                                    : "";
+  for (const std::string& words : where)
+    text += (text.empty() ? "" : leans || turns ? " " : ", and that ") + words;
+  if (opposite) text += ", opposite on the two flanks";
+  const std::string at = leans && turns ? "at the tip's upper corner"
+                         : leans        ? "at the tip"
+                         : turns        ? "at the upper end"
+                                        : "there";
+  return text + there(at, told.sign(), opposite);
+}
+
+std::vector<TermKey> keys_of_courses() {
+  std::vector<TermKey> keys;
+  for (const std::string along : {"profile", "face"}) {
+    keys.push_back({along + "_course", TermKey::Kind::kWord, FlankCourse::kind_words()});
+    keys.push_back(number(along + "_mm"));
+    keys.push_back({along + "_towards"});
+    keys.push_back(number(along + "_half_mm"));
+  }
+  keys.push_back({"flanks", TermKey::Kind::kWord, {"equal", "opposite"}});
+  return keys;
+}
+
+const std::vector<std::string> kCourseNames{"profile_course",  "profile_mm",   "profile_towards",
+                                            "profile_half_mm", "face_course",  "face_mm",
+                                            "face_towards",    "face_half_mm", "opposite_flanks"};
+
+int sought_along(const EffectShape& shape) {
+  return FlankCourse::at(shape, kProfile).values_sought() +
+         FlankCourse::at(shape, kFace).values_sought();
+}
+
+}  // namespace
+
+/// A corner at the tip of both ends, a lean above a height, a hollow that ends along the face. Told
+/// in place of slopes, bows, twists and waves across the flanks that follow it
+/// (part_loop_crossed.cpp), and no candidate of its own.
+EffectFamily unnamed_crossed() {
+  EffectFamily f = described("unnamed_crossed", kCourseNames);
+  f.one_flank_too = true;
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = on_a_flank(g, p, shape);
+  };
+  f.same_on_every_tooth = [](const EffectShape&) { return true; };
+  f.needs = needs_of;
+  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
+  f.nearby = courses_beside;
+  f.values_sought = sought_along;
+  f.term_keys = keys_of_courses();
+  f.words = [](const ToldForm& told) {
+    return "the same on every tooth, " + words_of_courses(told);
+  };
+  return f;
+}
+
+/// Resin or oil that gathers on the lower side, a tool that wears at its tip from tooth to tooth.
+/// Told in place of forms of some teeth, and once or more often per turn, that follow it
+/// (part_loop_crossed.cpp), and no candidate of its own.
+EffectFamily unnamed_crossed_around() {
+  EffectFamily f = described("unnamed_crossed_around", kCourseNames);
+  for (const char* name : {"around", "towards_deg", "half_deg"}) f.shape_names.emplace_back(name);
+  f.one_flank_too = true;
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = on_a_flank(g, p, shape);
+    if (c[0] != 0.0) c[0] *= AroundCourse::at(shape, kAround).value(g, p.tooth);
+  };
+  f.needs = needs_of;
+  f.faces_a_direction = true;
+  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
+  f.bends_over_the_face = [](const EffectShape& shape) { return has(shape, kFace); };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes = courses_beside(g, shape);
+    for (const AroundCourse& around : AroundCourse::at(shape, kAround).beside(g)) {
+      shapes.push_back(shape);
+      around.put_in(shapes.back(), kAround);
+    }
+    return shapes;
+  };
+  f.values_sought = [](const EffectShape& shape) {
+    return sought_along(shape) + AroundCourse::at(shape, kAround).values_sought();
+  };
+  f.term_keys = keys_of_courses();
+  f.term_keys.push_back({"around", TermKey::Kind::kWord, AroundCourse::kind_words()});
+  f.term_keys.push_back(number("towards_deg"));
+  f.term_keys.push_back(number("half_deg"));
+  f.words = [](const ToldForm& told) {
+    return AroundCourse::at(told.shape, kAround).words(told.geometry) + ", " +
+           words_of_courses(told);
+  };
+  return f;
+}
+
+}  // namespace trueflank::loop::gear_effects

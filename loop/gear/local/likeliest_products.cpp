@@ -1,0 +1,473 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/local/likeliest_products.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "trueflank/base/units.h"
+#include "trueflank/loop/gear/effects/flank_course.h"
+#include "trueflank/loop/gear/effects/registry.h"
+
+namespace trueflank::loop {
+namespace {
+
+using gear_effects::AroundCourse;
+using gear_effects::FlankCourse;
+
+constexpr int kProductCells = 32;
+
+/// Sums of weights and of weighted residuals.
+struct Sum {
+  double weight = 0.0, value = 0.0;
+  void operator+=(const Sum& other) {
+    weight += other.weight;
+    value += other.value;
+  }
+};
+using Along = std::array<Sum, kProductCells>;
+using OverFlank = std::array<Along, kProductCells>;  ///< [profile][face]
+
+/// What is measured of the flank of a tooth.
+struct OfFlank {
+  Along profile{}, face{};
+  OverFlank both{};     ///< of scans
+  double square = 0.0;  ///< of the residuals
+};
+
+/// A course with its values in the middles of the cells.
+struct CourseInCells {
+  FlankCourse course;
+  std::array<double, kProductCells> values{};
+};
+
+std::vector<CourseInCells> in_cells(const FlankGeometry& g, double face) {
+  const double low = face != 0.0 ? 0.0 : g.root_form_roll_mm(),
+               high = face != 0.0 ? g.face_width_mm() : g.tip_form_roll_mm();
+  std::vector<CourseInCells> courses;
+  for (const FlankCourse& course : gear_effects::courses_over(g, face)) {
+    CourseInCells one{course};
+    for (int i = 0; i < kProductCells; ++i)
+      one.values[static_cast<std::size_t>(i)] =
+          course.value(g, face, low + (i + 0.5) / kProductCells * (high - low));
+    courses.push_back(one);
+  }
+  return courses;
+}
+
+/// What a form takes out: the square of its product with the residuals over its own square.
+struct Projection {
+  double product = 0.0, square = 0.0;
+};
+
+Projection projected(const Along& sums, const std::array<double, kProductCells>& form,
+                     bool centred) {
+  // (the mean of a trace says nothing)
+  double product = 0.0, square = 0.0, weight = 0.0, first = 0.0, value = 0.0;
+  for (std::size_t i = 0; i < kProductCells; ++i) {
+    product += sums[i].value * form[i];
+    square += sums[i].weight * form[i] * form[i];
+    first += sums[i].weight * form[i];
+    weight += sums[i].weight;
+    value += sums[i].value;
+  }
+  if (!centred || !(weight > 0.0)) return {product, square};
+  return {product - value * first / weight, square - first * first / weight};
+}
+
+/// Both flanks alike, both in opposite directions, or one of them.
+struct FlankWay {
+  FlankChoice flank;
+  bool opposite;
+  std::array<double, 2> signs;  ///< of the clockwise side and the other
+};
+std::array<FlankWay, 4> flank_ways(const FlankGeometry& g) {
+  const bool left_first = flank_side(Flank::kLeft, g.gear().kind) < 0;
+  const double first = left_first ? 1.0 : 0.0;
+  return {{{FlankChoice::kBoth, false, {1.0, 1.0}},
+           {FlankChoice::kBoth, true, {-1.0, 1.0}},
+           {FlankChoice::kLeft, false, {first, 1.0 - first}},
+           {FlankChoice::kRight, false, {1.0 - first, first}}}};
+}
+
+/// A form and what it takes out.
+struct Likely {
+  double gain = 0.0;
+  Effect form;
+};
+
+/// Ways around the gear that lead to each other where one of them is moved.
+int way_around(const Effect& form) {
+  constexpr std::size_t kAround = 2 * FlankCourse::kValues + 1;
+  if (form.shape.size() <= kAround) return 0;
+  const AroundCourse around = AroundCourse::at(form.shape, kAround);
+  return around.kind == AroundCourse::kRaised || around.kind == AroundCourse::kBell
+             ? AroundCourse::kHalf
+             : around.kind;
+}
+
+constexpr double kNearly = 0.5;  // of what the best takes out: in its place it may be the best
+
+/// The likeliest kinds of courses on the likeliest flanks, a list each, of each way around: the
+/// best of each kind.
+std::vector<LikelyForms> best_of(std::vector<Likely> all, std::size_t kinds) {
+  constexpr std::size_t kOfAKind = 2;
+  constexpr std::size_t kFace = FlankCourse::kValues, kOpposite = 2 * FlankCourse::kValues;
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Likely& a, const Likely& b) { return a.gain > b.gain; });
+  const auto alike = [](const Effect& a, const Effect& b) {
+    return a.flank == b.flank && way_around(a) == way_around(b) && a.shape[0] == b.shape[0] &&
+           a.shape[kFace] == b.shape[kFace] && a.shape[kOpposite] == b.shape[kOpposite];
+  };
+  std::vector<LikelyForms> best;
+  for (const Likely& one : all) {
+    if (one.gain < kNearly * all.front().gain || !(one.gain > 0.0)) break;
+    const auto kind = std::find_if(best.begin(), best.end(), [&](const LikelyForms& list) {
+      return alike(list.forms.front(), one.form);
+    });
+    if (kind == best.end()) {
+      const auto own_way = [&](const LikelyForms& list) {
+        return way_around(list.forms.front()) == way_around(one.form);
+      };
+      if (static_cast<std::size_t>(std::count_if(best.begin(), best.end(), own_way)) < kinds)
+        best.push_back({one.gain, {one.form}});
+    } else if (kind->forms.size() < kOfAKind) {
+      kind->forms.push_back(one.form);
+    }
+  }
+  return best;
+}
+
+EffectShape shape_of(const FlankCourse& profile, const FlankCourse& face, const FlankWay& way) {
+  EffectShape shape(2 * FlankCourse::kValues + 1);
+  profile.put_in(shape, 0);
+  face.put_in(shape, FlankCourse::kValues);
+  shape.back() = way.opposite ? 1.0 : 0.0;
+  return shape;
+}
+
+double gain_of(const Projection& p) {
+  return p.square > 0.0 ? p.product * p.product / p.square : 0.0;
+}
+
+/// How forms may go from tooth to tooth: a row each, of every tooth.
+struct Arounds {
+  std::vector<AroundCourse> courses;
+  Eigen::MatrixXd on_teeth, squares;
+};
+Arounds arounds_of(const FlankGeometry& g) {
+  constexpr int kFewest = 24, kMost = 96;
+  const int directions = std::clamp(g.teeth(), kFewest, kMost);
+  Arounds all;
+  for (AroundCourse course : gear_effects::courses_around(g)) {
+    const double period_deg = course.kind == AroundCourse::kWave ? course.half_deg : 360.0;
+    for (int d = 0; d < directions && d * 360.0 / directions < period_deg; ++d) {
+      course.towards_deg = d * 360.0 / directions;
+      all.courses.push_back(course);
+    }
+  }
+  all.on_teeth.resize(std::ssize(all.courses), g.teeth());
+  for (Eigen::Index i = 0; i < all.on_teeth.rows(); ++i)
+    for (int tooth = 1; tooth <= g.teeth(); ++tooth)
+      all.on_teeth(i, tooth - 1) = all.courses[static_cast<std::size_t>(i)].value(g, tooth);
+  all.squares = all.on_teeth.cwiseAbs2();
+  return all;
+}
+
+/// The best way around for a form of which every tooth's projection is known: as the residuals are,
+/// or beside names that take up what is alike on all teeth.
+Likely best_around(const Arounds& arounds, const std::vector<Projection>& of_teeth,
+                   FlankChoice flank, EffectShape shape) {
+  Eigen::VectorXd products(std::ssize(of_teeth)), squares(std::ssize(of_teeth));
+  for (Eigen::Index t = 0; t < products.size(); ++t) {
+    products[t] = of_teeth[static_cast<std::size_t>(t)].product;
+    squares[t] = of_teeth[static_cast<std::size_t>(t)].square;
+  }
+  const double all = squares.sum();
+  if (!(all > 0.0)) return {};
+  const Eigen::ArrayXd product = (arounds.on_teeth * products).array(),
+                       square = (arounds.squares * squares).array();
+  const Eigen::ArrayXd mean = (arounds.on_teeth * squares).array() / all,
+                       beside_mean = product - mean * products.sum(),
+                       square_beside = square - mean.square() * all;
+  constexpr double kAnything = 1e-6;
+  const Eigen::ArrayXd gains =
+      (square > kAnything * all)
+          .select(product.square() / square, 0.0)
+          .max((square_beside > kAnything * all).select(beside_mean.square() / square_beside, 0.0));
+  Eigen::Index best = 0;
+  const double gain = gains.maxCoeff(&best);
+  const std::size_t own = shape.size();
+  shape.resize(own + AroundCourse::kValues);
+  arounds.courses[static_cast<std::size_t>(best)].put_in(shape, own);
+  return {gain, {find_family("unnamed_crossed_around"), flank, std::move(shape)}};
+}
+
+using OfTeeth = std::vector<std::array<OfFlank, 2>>;
+
+OfTeeth sums_of(const FlankGeometry& g, const Observations& table, const Patches& patches,
+                const std::vector<float>& row_um) {
+  OfTeeth teeth(static_cast<std::size_t>(g.teeth()));
+  const auto cell = [](double coordinate) {
+    return static_cast<std::size_t>(part_of(coordinate, kProductCells));
+  };
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const Observation& row = table.rows[i];
+    const bool scan = row.kind == ObservationKind::kScanFlank;
+    if ((!scan && row.kind != ObservationKind::kProfile && row.kind != ObservationKind::kHelix) ||
+        row.places != 1 || patches.patch_of_row[i] < 0 || !std::isfinite(row_um[i]))
+      continue;
+    const Place& place = table.place(row);
+    if (place.surface != Surface::kFlank) continue;
+    OfFlank& flank = teeth[static_cast<std::size_t>(place.tooth - 1)][place.side > 0 ? 1 : 0];
+    const std::size_t u = cell(g.profile_coordinate(place.roll_mm)),
+                      v = cell(g.face_coordinate(place.z_mm));
+    const Sum one{1.0, row_um[i]};
+    flank.square += one.value * one.value;
+    if (row.kind != ObservationKind::kHelix) flank.profile[u] += one;
+    if (row.kind != ObservationKind::kProfile) flank.face[v] += one;
+    if (scan) flank.both[u][v] += one;
+  }
+  return teeth;
+}
+
+/// Over profile and face, of every few teeth that follow each other.
+constexpr std::size_t kGroups = 12;
+using OfGroups = std::array<std::array<OverFlank, 2>, kGroups>;
+
+OfGroups in_groups(const OfTeeth& teeth) {
+  OfGroups groups{};
+  for (std::size_t t = 0; t < teeth.size(); ++t)
+    for (const std::size_t side : {0U, 1U})
+      for (std::size_t u = 0; u < kProductCells; ++u)
+        for (std::size_t v = 0; v < kProductCells; ++v)
+          groups[t * kGroups / teeth.size()][side][u][v] += teeth[t][side].both[u][v];
+  return groups;
+}
+
+/// Sums over the profile, with a course over it.
+Along summed(const OverFlank& sums, const std::array<double, kProductCells>& profile) {
+  Along all{};
+  for (std::size_t u = 0; u < kProductCells; ++u) {
+    if (profile[u] == 0.0) continue;
+    for (std::size_t v = 0; v < kProductCells; ++v)
+      all[v] += {profile[u] * profile[u] * sums[u][v].weight, profile[u] * sums[u][v].value};
+  }
+  return all;
+}
+
+/// Of flanks as a form acts on them: one way.
+Projection together(const std::array<Projection, 2>& sides, const FlankWay& way) {
+  return {way.signs[0] * sides[0].product + way.signs[1] * sides[1].product,
+          way.signs[0] * way.signs[0] * sides[0].square +
+              way.signs[1] * way.signs[1] * sides[1].square};
+}
+
+/// Two courses, and what their product takes out: as it is the same on every tooth, and at most,
+/// with a size of its own on every few teeth.
+struct Pair {
+  std::size_t profile = 0, face = 0, way = 0;
+  double alike = 0.0, at_most = 0.0;
+};
+
+std::vector<Pair> pairs_of(const OfTeeth& teeth, const std::vector<CourseInCells>& profiles,
+                           const std::vector<CourseInCells>& faces,
+                           const std::array<FlankWay, 4>& ways) {
+  const OfGroups groups = in_groups(teeth);
+  std::vector<Pair> pairs;
+  for (std::size_t p = 0; p < profiles.size(); ++p) {
+    std::array<std::array<Along, 2>, kGroups> over_profile;
+    for (std::size_t k = 0; k < kGroups; ++k)
+      for (const std::size_t side : {0U, 1U})
+        over_profile[k][side] = summed(groups[k][side], profiles[p].values);
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      std::array<std::array<Projection, 2>, kGroups> own;
+      for (std::size_t k = 0; k < kGroups; ++k)
+        for (const std::size_t side : {0U, 1U})
+          own[k][side] = projected(over_profile[k][side], faces[f].values, false);
+      for (std::size_t w = 0; w < ways.size(); ++w) {
+        Pair pair{p, f, w};
+        Projection all;
+        for (const auto& sides : own) {
+          const Projection one = together(sides, ways[w]);
+          pair.at_most += gain_of(one);
+          all.product += one.product;
+          all.square += one.square;
+        }
+        pair.alike = gain_of(all);
+        pairs.push_back(pair);
+      }
+    }
+  }
+  return pairs;
+}
+
+/// Levels, slopes and bows over profile and face, as names have them: of the flanks of one side.
+struct BesideNames {
+  static constexpr int kCourses = 5;
+  using Vector = Eigen::Matrix<double, kCourses, 1>;
+  Eigen::LDLT<Eigen::Matrix<double, kCourses, kCourses>> solver;
+  Vector right = Vector::Zero(), solved = Vector::Zero();
+
+  [[nodiscard]] static double coordinate(std::size_t cell) {
+    return 2.0 * (static_cast<double>(cell) + 0.5) / kProductCells - 1.0;
+  }
+  [[nodiscard]] static Vector at(std::size_t u, std::size_t v) {
+    const double x = coordinate(u), y = coordinate(v);
+    return Vector(1.0, x, x * x, y, y * y);
+  }
+  explicit BesideNames(const OverFlank& sums) {
+    Eigen::Matrix<double, kCourses, kCourses> normal =
+        1e-9 * Eigen::Matrix<double, kCourses, kCourses>::Identity();
+    for (std::size_t u = 0; u < kProductCells; ++u)
+      for (std::size_t v = 0; v < kProductCells; ++v) {
+        const Vector courses = at(u, v);
+        normal += sums[u][v].weight * courses * courses.transpose();
+        right += sums[u][v].value * courses;
+      }
+    solver.compute(normal);
+    solved = solver.solve(right);
+  }
+  /// Squares that they take out.
+  [[nodiscard]] double square() const { return right.dot(solved); }
+  /// What a form takes out beside them, of its own and its products with them.
+  [[nodiscard]] Projection beside(const Projection& own, const Vector& products) const {
+    return {own.product - products.dot(solved), own.square - products.dot(solver.solve(products))};
+  }
+};
+
+/// Pairs of courses as they are the same on every tooth, beside names.
+std::vector<Pair> pairs_beside_names(const std::array<OverFlank, 2>& mean,
+                                     const std::array<BesideNames, 2>& names,
+                                     const std::vector<CourseInCells>& profiles,
+                                     const std::vector<CourseInCells>& faces,
+                                     const std::array<FlankWay, 4>& ways) {
+  constexpr double kAnything = 1e-3;  // of a form's square: less is a sum of names
+  std::vector<Pair> pairs;
+  for (std::size_t p = 0; p < profiles.size(); ++p) {
+    std::array<Along, 2> over_profile;
+    // Of the course times 1, x and x squared.
+    std::array<std::array<std::array<double, kProductCells>, 3>, 2> weights{};
+    for (const std::size_t side : {0U, 1U}) {
+      over_profile[side] = summed(mean[side], profiles[p].values);
+      for (std::size_t u = 0; u < kProductCells; ++u) {
+        const double at = profiles[p].values[u], x = BesideNames::coordinate(u);
+        if (at == 0.0) continue;
+        for (std::size_t v = 0; v < kProductCells; ++v) {
+          const double weight = at * mean[side][u][v].weight;
+          weights[side][0][v] += weight;
+          weights[side][1][v] += weight * x;
+          weights[side][2][v] += weight * x * x;
+        }
+      }
+    }
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      std::array<Projection, 2> sides;
+      for (const std::size_t side : {0U, 1U}) {
+        BesideNames::Vector products = BesideNames::Vector::Zero();
+        for (std::size_t v = 0; v < kProductCells; ++v) {
+          const double at = faces[f].values[v], y = BesideNames::coordinate(v);
+          products += at * BesideNames::Vector(weights[side][0][v], weights[side][1][v],
+                                               weights[side][2][v], weights[side][0][v] * y,
+                                               weights[side][0][v] * y * y);
+        }
+        const Projection own = projected(over_profile[side], faces[f].values, false);
+        sides[side] = names[side].beside(own, products);
+        if (!(sides[side].square > kAnything * own.square)) sides[side] = {};
+      }
+      for (std::size_t w = 0; w < ways.size(); ++w)
+        pairs.push_back({p, f, w, gain_of(together(sides, ways[w])), 0.0});
+    }
+  }
+  return pairs;
+}
+
+/// The best few of every two kinds of courses.
+std::vector<Pair> best_pairs(std::vector<Pair> pairs, const std::vector<CourseInCells>& profiles,
+                             const std::vector<CourseInCells>& faces) {
+  constexpr std::size_t kMost = 48, kOfAKind = 2;
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const Pair& a, const Pair& b) { return a.at_most > b.at_most; });
+  std::map<std::array<std::size_t, 3>, std::size_t> of_a_kind;
+  std::vector<Pair> best;
+  for (const Pair& pair : pairs) {
+    if (best.size() == kMost || pair.at_most < kNearly * pairs.front().at_most) break;
+    const std::array kinds{static_cast<std::size_t>(profiles[pair.profile].course.kind),
+                           static_cast<std::size_t>(faces[pair.face].course.kind), pair.way};
+    if (++of_a_kind[kinds] <= kOfAKind) best.push_back(pair);
+  }
+  return best;
+}
+
+}  // namespace
+
+LikeliestProducts likeliest_products(const FlankGeometry& g, const Observations& table,
+                                     const Patches& patches, const std::vector<float>& row_um) {
+  const bool scan = !table.points_mm.empty();
+  const OfTeeth teeth = sums_of(g, table, patches, row_um);
+  const std::vector<CourseInCells> profiles = in_cells(g, 0.0), faces = in_cells(g, 1.0);
+  const Arounds arounds = arounds_of(g);
+  const std::array<FlankWay, 4> ways = flank_ways(g);
+  LikeliestProducts likeliest;
+  std::vector<Likely> same, around, beside;
+  const auto add_around = [&](const FlankCourse& profile, const FlankCourse& face,
+                              const FlankWay& way, const auto& projection) {
+    std::vector<Projection> of_teeth;
+    for (const auto& tooth : teeth)
+      of_teeth.push_back(together({projection(tooth[0]), projection(tooth[1])}, way));
+    around.push_back(best_around(arounds, of_teeth, way.flank, shape_of(profile, face, way)));
+  };
+  for (const FlankWay& way : ways) {
+    for (const CourseInCells& course : profiles)
+      add_around(course.course, {}, way, [&](const OfFlank& flank) {
+        return projected(flank.profile, course.values, !scan);
+      });
+    for (const CourseInCells& course : faces)
+      add_around({}, course.course, way,
+                 [&](const OfFlank& flank) { return projected(flank.face, course.values, !scan); });
+  }
+  if (scan) {
+    const std::vector<Pair> pairs = pairs_of(teeth, profiles, faces, ways);
+    const auto likeliest_of = [&](const std::vector<Pair>& of) {
+      double most = 0.0;
+      for (const Pair& pair : of) most = std::max(most, pair.alike);
+      std::vector<Likely> forms;
+      for (const Pair& pair : of)
+        if (pair.alike > kNearly * most)
+          forms.push_back(
+              {pair.alike,
+               {find_family("unnamed_crossed"), ways[pair.way].flank,
+                shape_of(profiles[pair.profile].course, faces[pair.face].course, ways[pair.way])}});
+      return forms;
+    };
+    same = likeliest_of(pairs);
+    std::array<OverFlank, 2> mean{};
+    for (const auto& group : in_groups(teeth))
+      for (const std::size_t side : {0U, 1U})
+        for (std::size_t u = 0; u < kProductCells; ++u)
+          for (std::size_t v = 0; v < kProductCells; ++v) mean[side][u][v] += group[side][u][v];
+    const std::array names{BesideNames(mean[0]), BesideNames(mean[1])};
+    beside = likeliest_of(pairs_beside_names(mean, names, profiles, faces, ways));
+    likeliest.square_beside_names = -names[0].square() - names[1].square();
+    for (const Pair& pair : best_pairs(pairs, profiles, faces))
+      add_around(profiles[pair.profile].course, faces[pair.face].course, ways[pair.way],
+                 [&](const OfFlank& flank) {
+                   return projected(summed(flank.both, profiles[pair.profile].values),
+                                    faces[pair.face].values, false);
+                 });
+  }
+  constexpr std::size_t kKinds = 4, kKindsOfAWay = 2;
+  likeliest.same_on_every_tooth = best_of(std::move(same), kKinds);
+  likeliest.beside_names = best_of(std::move(beside), kKinds);
+  likeliest.around_the_gear = best_of(std::move(around), kKindsOfAWay);
+  for (const auto& tooth : teeth)
+    for (const OfFlank& flank : tooth) likeliest.square += flank.square;
+  likeliest.square_beside_names += likeliest.square;
+  return likeliest;
+}
+
+}  // namespace trueflank::loop

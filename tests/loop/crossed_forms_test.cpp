@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/loop/made_gears.h"
+
+// Forms that are the product of two simple courses, over the profile and over the face, and of
+// these with one from tooth to tooth: each is one form, told with its place.
+namespace trueflank::test {
+namespace {
+
+double above(double x, double from) { return std::max(0.0, (x - from) / (1.0 - from)); }
+/// 0 ... 1 from root to tip, and from the lower to the upper end.
+double up(double coordinate) { return 0.5 * (coordinate + 1.0); }
+double centre_rad(const MadeGear& g, const FlankSpot& s) {
+  return 2.0 * M_PI * (s.tooth - 1) / g.teeth;
+}
+
+void expect_one(const loop::LoopResult& result, const std::vector<std::string>& words) {
+  for (const std::string& text : words)
+    EXPECT_TRUE(tells_of(result, text)) << text << "\n" << list(result);
+  EXPECT_EQ(result.effects.size(), 1U) << list(result);
+  EXPECT_NE(result.verdict, loop::Verdict::kNoEffect) << list(result);
+}
+
+loop::LoopResult scanned_with(const MadeGear& gear, const Process& process, unsigned seed) {
+  return close(gear, scan_of(gear, {process}, scanned(9000, 1.5, seed)), true);
+}
+
+TEST(CrossedForm, OfTheTipAtBothEndsIsOneForm) {
+  for (const MadeGear& gear : {spur(31), helical(24, 20.0)})
+    expect_one(scanned_with(gear, grown([](auto&, const FlankSpot& s, auto&) {
+                              return -24.0 * above(up(s.u), 0.5) *
+                                     std::exp(-(1.0 - std::abs(s.v)) / 0.24);
+                            }),
+                            11),
+               {"more and more evenly from a diameter of",
+                "dying away from both ends of the face within", "there the flanks lie back"});
+}
+
+TEST(CrossedForm, LeansAboveAHeightOnly) {
+  const MadeGear gear = spur(27);
+  expect_one(scanned_with(gear, grown([](auto&, const FlankSpot& s, auto&) {
+                            return s.v > 0.1 ? 9.0 * s.u : 0.0;
+                          }),
+                          12),
+             {"the profile leans above a height of", "only: at the tip the flanks stand out"});
+}
+
+TEST(CrossedForm, OfOneFlankNamesTheFlank) {
+  const MadeGear gear = spur(25);
+  const auto result =
+      scanned_with(gear, grown([](auto&, const FlankSpot& s, auto&) {
+                     const double off = (up(s.u) - 0.4) / 0.15;
+                     return s.side > 0 ? -18.0 * std::exp(-off * off) * up(s.v) : 0.0;
+                   }),
+                   13);
+  expect_one(result, {"about a diameter of", "more and more evenly", "towards the upper end"});
+  ASSERT_FALSE(result.effects.empty());
+  EXPECT_EQ(result.effects[0].flank, "left") << list(result);
+}
+
+TEST(CrossedForm, OfOneSideOfTheGearIsOneForm) {
+  for (const MadeGear& gear : {spur(30), helical(23, -15.0)})
+    expect_one(scanned_with(gear, grown([](const MadeGear& g, const FlankSpot& s, auto&) {
+                              return 15.0 * std::exp(-up(s.u) / 0.2) *
+                                     std::max(0.0, std::cos(centre_rad(g, s) - 2.0));
+                            }),
+                            14),
+               {"on the teeth towards 11", "none on the other half", "dying away from the root"});
+}
+
+TEST(CrossedForm, OfTracesOfOneSideIsOneForm) {
+  const MadeGear gear = spur(24);
+  std::vector<int> teeth;
+  for (int tooth = 1; tooth <= 24; ++tooth) teeth.push_back(tooth);
+  const auto result =
+      close(gear, inspection_of(gear, {grown([](const MadeGear& g, const FlankSpot& s, auto&) {
+                                  return -8.0 * up(s.v) * up(s.v) *
+                                         std::max(0.0, std::cos(centre_rad(g, s) - 4.0));
+                                })},
+                                traced(teeth, 1.0, 15)));
+  expect_one(result, {"on the teeth towards 2", "none on the other half", "by the square from",
+                      "towards the upper end"});
+}
+
+TEST(CrossedForm, OfSomeTeethIsOneForm) {
+  const MadeGear gear = spur(30);
+  expect_one(scanned_with(gear, grown([](auto&, const FlankSpot& s, auto&) {
+                            return s.tooth >= 9 && s.tooth <= 17
+                                       ? -40.0 * above(up(s.u), 0.4) * above(up(s.v), 0.5)
+                                       : 0.0;
+                          }),
+                          16),
+             {"on 9 teeth from tooth 9 on", "towards the tip", "towards the upper end"});
+}
+
+TEST(CrossedForm, StandsBesideNames) {
+  const MadeGear gear = spur(29);
+  const auto form = grown([](auto&, const FlankSpot& s, auto&) {
+    return 5.0 * (1.0 - s.v * s.v) -
+           24.0 * above(up(s.u), 0.5) * std::exp(-(1.0 - std::abs(s.v)) / 0.24);
+  });
+  const auto result = scanned_with(gear, form, 17);
+  ASSERT_NE(find(result, "crowning"), nullptr) << list(result);
+  EXPECT_NEAR(parameter(*find(result, "crowning"), "amount_um").value, 5.0, 0.5) << list(result);
+  EXPECT_TRUE(tells_of(result, "dying away from both ends of the face")) << list(result);
+  EXPECT_EQ(result.effects.size(), 3U) << "all flanks stand out by 5 um besides\n" << list(result);
+}
+
+// Two names are two names, though their sum may be near a product.
+TEST(CrossedForm, IsNotMadeOfNames) {
+  const MadeGear gear = spur(26);
+  const auto result =
+      scanned_with(gear, grown([](auto&, const FlankSpot& s, auto&) {
+                     return (s.side > 0 ? 4.0 : -4.0) * s.v - 6.0 * s.v * s.v + 3.0 * s.u * s.v;
+                   }),
+                   18);
+  EXPECT_NE(find(result, "helix_error"), nullptr) << list(result);
+  EXPECT_NE(find(result, "crowning"), nullptr) << list(result);
+  EXPECT_NE(find(result, "flank_twist"), nullptr) << list(result);
+}
+
+}  // namespace
+}  // namespace trueflank::test
