@@ -110,6 +110,14 @@ TEST(CrossedForm, StandsBesideNames) {
   EXPECT_EQ(result.effects.size(), 3U) << "all flanks stand out by 5 um besides\n" << list(result);
 }
 
+TEST(CrossedForm, OfWavesThatGrowWithTheHeightIsOneForm) {
+  const auto result = scanned_with(spur(28), grown([](auto&, const FlankSpot& s, auto&) {
+                                     return 20.0 * std::cos(2.0 * M_PI * 4.0 * up(s.u)) * up(s.v);
+                                   }),
+                                   19);
+  expect_one(result, {"4.0 waves over the profile", "more and more evenly from the lower end on"});
+}
+
 // Two names are two names, though their sum may be near a product.
 TEST(CrossedForm, IsNotMadeOfNames) {
   const MadeGear gear = spur(26);

@@ -303,7 +303,7 @@ std::vector<Told> forms(const loop::FlankGeometry& g) {
        -1,
        0},
       {"unnamed_crossed_around",
-       {3, 23, 1, 0, 4, 2, -1, 0, 0, 3, 30, 40},
+       {3, 23, 1, 0, 4, 2, -1, 0, 0, 2, 30, 40},
        "on 5 teeth from tooth 1 on, more and more evenly from a diameter of 23 mm on towards the "
        "tip, "
        "and that more and more by the square from a height of 2 mm on towards the lower end: there "
@@ -415,11 +415,11 @@ TEST(SignWords, AreSaidOfEveryFormOfOneCoefficient) {
     if (family.named) continue;
     // (a patch is a dish with an edge; the others have two coefficients)
     static const std::set<std::string> kOther{
-        "unnamed_patch", "unnamed_waviness", "unnamed_marks", "unnamed_waves_from",
-        "unnamed_waves_dying", "unnamed_waves_growing", "unnamed_walking_waves",
-        "unnamed_waves_changing", "unnamed_bow", "unnamed_axis_kink", "unnamed_field",
-        "unnamed_facing", "unnamed_moved_sector", "unnamed_drift_aside", "unnamed_broken_wave",
-        "unnamed_stairs", "unnamed_wave_of_some",
+        "unnamed_crossed_waves", "unnamed_patch", "unnamed_waviness", "unnamed_marks",
+        "unnamed_waves_from", "unnamed_waves_dying", "unnamed_waves_growing",
+        "unnamed_walking_waves", "unnamed_waves_changing", "unnamed_bow", "unnamed_axis_kink",
+        "unnamed_field", "unnamed_facing", "unnamed_moved_sector", "unnamed_drift_aside",
+        "unnamed_broken_wave", "unnamed_stairs", "unnamed_wave_of_some",
         // (play is said by its axis; the words of those of some teeth are those of all)
         "unnamed_wobble", "unnamed_reversal", "unnamed_kink_of_teeth", "unnamed_bend_of_teeth",
         "unnamed_waviness_of_teeth"};

@@ -69,6 +69,29 @@ double FlankCourse::value(const FlankGeometry& g, double face, double at_mm) con
   return 0.0;
 }
 
+bool FlankCourse::is_of_free_form(const FlankGeometry& g, double face) const {
+  constexpr double kNearlyAll = 0.35, kLong = 0.25, kLongOfBoth = 0.12, kWide = 0.25;
+  const double range = std::abs(range_mm(g, face));
+  switch (kind) {
+    case kWhole:
+    case kSlope:
+    case kBow:
+      return true;
+    case kKink:
+    case kBend: {
+      const double share = share_of(g, face, mm);
+      return (towards > 0.0 ? share : 1.0 - share) < kNearlyAll;
+    }
+    case kRise:
+      return mm > (towards != 0.0 ? kLong : kLongOfBoth) * range;
+    case kBand:
+      return half_mm > kWide * range;
+    case kStep:
+      return false;
+  }
+  return false;
+}
+
 int FlankCourse::values_sought() const {
   switch (kind) {
     case kWhole:
@@ -205,8 +228,6 @@ double AroundCourse::value(const FlankGeometry& g, int tooth) const {
   switch (kind) {
     case kHalf:
       return std::max(0.0, std::cos(off));
-    case kRaised:
-      return 0.5 * (1.0 + std::cos(off));
     case kBell:
       return bell(off, half);
     case kSector:
@@ -216,6 +237,8 @@ double AroundCourse::value(const FlankGeometry& g, int tooth) const {
       const double from = off < -kRounding ? off + kTwoPi : std::max(0.0, off);
       return from / (kTwoPi - kTwoPi / g.teeth());
     }
+    case kEvery:
+      return 1.0;
     case kWave:
       return std::cos(kPi * off / half);
   }
@@ -223,6 +246,7 @@ double AroundCourse::value(const FlankGeometry& g, int tooth) const {
 }
 
 std::vector<AroundCourse> AroundCourse::beside(const FlankGeometry& g) const {
+  if (kind == kEvery) return {};
   constexpr double kNarrowest_deg = 15.0, kWidest_deg = 100.0;
   const double pitch_deg = 360.0 / g.teeth();
   std::vector<AroundCourse> courses;
@@ -251,8 +275,7 @@ std::vector<AroundCourse> AroundCourse::beside(const FlankGeometry& g) const {
   for (const double off : {-20.0, -7.0, -2.0, -0.7, 0.7, 2.0, 7.0, 20.0})
     add({kind, towards_deg + scale * off, half_deg});
   if (kind == kWave) return courses;
-  for (const Kind other : {kHalf, kRaised})
-    if (kind != other) add({other, towards_deg, 0.0});
+  if (kind == kBell) add({kHalf, towards_deg, 0.0});
   if (kind == kBell)
     for (const double times : {0.7, 0.85, 0.95, 1.05, 1.18, 1.43})
       add({kind, towards_deg, times * half_deg});
@@ -265,11 +288,11 @@ std::string AroundCourse::words(const FlankGeometry& g) const {
   const double turned = std::fmod(std::fmod(towards_deg, 360.0) + 360.0, 360.0);
   const std::string towards = printed("towards %.0f deg", turned);
   switch (kind) {
+    case kEvery:
+      return "the same on every tooth";
     case kHalf:
       return "on the teeth " + towards +
              " and less and less to either side, none on the other half";
-    case kRaised:
-      return "most on the teeth " + towards + ", less and less to none on those opposite";
     case kBell:
       return "on the teeth " + towards +
              printed(", dying away over %.2g deg to either side", half_deg);
@@ -301,13 +324,12 @@ std::string AroundCourse::words(const FlankGeometry& g) const {
 }
 
 std::vector<std::string> AroundCourse::kind_words() {
-  return {"half", "raised", "bell", "sector", "ramp", "wave"};
+  return {"half", "bell", "sector", "ramp", "wave", "every"};
 }
 
 std::vector<AroundCourse> courses_around(const FlankGeometry& g) {
-  constexpr int kMostWaves = 4;
-  std::vector<AroundCourse> courses{
-      {AroundCourse::kHalf}, {AroundCourse::kRaised}, {AroundCourse::kRamp}};
+  constexpr int kMostWaves = 2;
+  std::vector<AroundCourse> courses{{AroundCourse::kHalf}, {AroundCourse::kRamp}};
   for (const double half : {25.0, 40.0, 60.0, 85.0})
     courses.push_back({AroundCourse::kBell, 0.0, half});
   const double pitch_deg = 360.0 / g.teeth();

@@ -28,6 +28,9 @@ struct FlankCourse {
 
   /// At a roll length or height [mm]. kSlope: -1 at the root or the lower end, 1 at the other.
   [[nodiscard]] double value(const FlankGeometry& geometry, double face, double at_mm) const;
+  /// A polynomial, as the free form has them, or near to one: a kink or a bend over most of the
+  /// way.
+  [[nodiscard]] bool is_of_free_form(const FlankGeometry& geometry, double face) const;
   /// Places and widths that were sought.
   [[nodiscard]] int values_sought() const;
   /// The same moved, longer or shorter, or of a kind near to it.
@@ -41,9 +44,9 @@ struct FlankCourse {
 /// How a form goes from tooth to tooth, as it stands among its shape values: by the direction in
 /// which a tooth stands.
 struct AroundCourse {
-  /// A cosine on one half and nothing on the other; a cosine raised to nothing opposite; a bell;
-  /// some teeth and no others; from nothing at a tooth evenly to all before it comes around; waves.
-  enum Kind { kHalf, kRaised, kBell, kSector, kRamp, kWave };
+  /// A cosine on one half and nothing on the other; a bell; some teeth and no others; from nothing
+  /// at a tooth evenly to all before it comes around; waves; the same on every tooth.
+  enum Kind { kHalf, kBell, kSector, kRamp, kWave, kEvery };
   static constexpr std::size_t kValues = 3;
 
   Kind kind = kHalf;
@@ -55,7 +58,14 @@ struct AroundCourse {
   }
   void put_in(EffectShape& shape, std::size_t first) const;
   [[nodiscard]] double value(const FlankGeometry& geometry, int tooth) const;
-  [[nodiscard]] int values_sought() const { return kind == kBell || kind == kSector ? 2 : 1; }
+  /// A mean and waves, as the free form has them; a wide bell is nearly that.
+  [[nodiscard]] bool is_of_free_form() const {
+    constexpr double kWide_deg = 75.0;
+    return kind == kWave || kind == kEvery || (kind == kBell && half_deg > kWide_deg);
+  }
+  [[nodiscard]] int values_sought() const {
+    return kind == kEvery ? 0 : kind == kBell || kind == kSector ? 2 : 1;
+  }
   [[nodiscard]] std::vector<AroundCourse> beside(const FlankGeometry& geometry) const;
   /// "on the teeth towards 30 deg, ... "
   [[nodiscard]] std::string words(const FlankGeometry& geometry) const;

@@ -69,6 +69,7 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_product();
 [[nodiscard]] EffectFamily unnamed_crossed();
 [[nodiscard]] EffectFamily unnamed_crossed_around();
+[[nodiscard]] EffectFamily unnamed_crossed_waves();
 [[nodiscard]] EffectFamily unnamed_band();
 [[nodiscard]] EffectFamily unnamed_strip();
 [[nodiscard]] EffectFamily unnamed_waviness();

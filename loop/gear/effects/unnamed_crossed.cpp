@@ -140,6 +140,12 @@ EffectFamily unnamed_crossed_around() {
       shapes.push_back(shape);
       around.put_in(shapes.back(), kAround);
     }
+    // (what the free form has is told by that)
+    std::erase_if(shapes, [&](const EffectShape& beside) {
+      return FlankCourse::at(beside, kProfile).is_of_free_form(g, 0.0) &&
+             FlankCourse::at(beside, kFace).is_of_free_form(g, 1.0) &&
+             AroundCourse::at(beside, kAround).is_of_free_form();
+    });
     return shapes;
   };
   f.values_sought = [](const EffectShape& shape) {
@@ -152,6 +158,79 @@ EffectFamily unnamed_crossed_around() {
   f.words = [](const ToldForm& told) {
     return AroundCourse::at(told.shape, kAround).words(told.geometry) + ", " +
            words_of_courses(told);
+  };
+  return f;
+}
+
+/// Waves over the profile (0) or the face (1), weighed by a course in the other direction, by one
+/// around the gear, or both: chatter that grows with the height, or of the teeth of one side. Told
+/// in place of waves and of what else follows them (part_loop_crossed.cpp), and no candidate of its
+/// own.
+EffectFamily unnamed_crossed_waves() {
+  constexpr std::size_t kOther = 2, kWhere = kOther + FlankCourse::kValues;
+  EffectFamily f =
+      described("unnamed_crossed_waves",
+                {"along", "wavelength_mm", "across_course", "across_mm", "across_towards",
+                 "across_half_mm", "around", "towards_deg", "half_deg"});
+  f.columns = [](const EffectShape&) { return 2; };
+  f.one_flank_too = true;
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = c[1] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    const double other = shape[0] != 0.0 ? 0.0 : 1.0;
+    const double size = FlankCourse::at(shape, kOther).value(g, other, along(other, p)) *
+                        AroundCourse::at(shape, kWhere).value(g, p.tooth);
+    if (size == 0.0) return;
+    const double angle = kTwoPi * along(shape[0], p) / shape[1];
+    c[0] = size * std::cos(angle);
+    c[1] = size * std::sin(angle);
+  };
+  f.same_on_every_tooth = [](const EffectShape& shape) {
+    return AroundCourse::at(shape, kWhere).kind == AroundCourse::kEvery;
+  };
+  f.needs = [](const EffectShape& shape) {
+    const bool crossed = has(shape, kOther);
+    return NeedsToBeSeen{.along_profile = shape[0] == 0.0 || crossed,
+                         .along_face = shape[0] != 0.0 || crossed,
+                         .crossed = crossed};
+  };
+  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes;
+    for (const double times : {0.97, 0.99, 0.997, 1.003, 1.01, 1.03}) {
+      shapes.push_back(shape);
+      shapes.back()[1] *= times;
+    }
+    for (const FlankCourse& course :
+         FlankCourse::at(shape, kOther).beside(g, shape[0] != 0.0 ? 0.0 : 1.0)) {
+      shapes.push_back(shape);
+      course.put_in(shapes.back(), kOther);
+    }
+    for (const AroundCourse& around : AroundCourse::at(shape, kWhere).beside(g)) {
+      shapes.push_back(shape);
+      around.put_in(shapes.back(), kWhere);
+    }
+    return shapes;
+  };
+  f.values_sought = [](const EffectShape& shape) {
+    return 1 + FlankCourse::at(shape, kOther).values_sought() +
+           AroundCourse::at(shape, kWhere).values_sought();
+  };
+  f.term_keys = {kAlong,
+                 number("wavelength_mm"),
+                 {"across_course", TermKey::Kind::kWord, FlankCourse::kind_words()},
+                 number("across_mm"),
+                 {"across_towards"},
+                 number("across_half_mm"),
+                 {"around", TermKey::Kind::kWord, AroundCourse::kind_words()},
+                 number("towards_deg"),
+                 number("half_deg")};
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const std::string where =
+        FlankCourse::at(shape, kOther).words(told.geometry, shape[0] != 0.0 ? 0.0 : 1.0);
+    return AroundCourse::at(shape, kWhere).words(told.geometry) + ", " +
+           waves_over(told.geometry, shape[0], shape[1]) + (where.empty() ? "" : ", " + where);
   };
   return f;
 }

@@ -105,9 +105,7 @@ int way_around(const Effect& form) {
   constexpr std::size_t kAround = 2 * FlankCourse::kValues + 1;
   if (form.shape.size() <= kAround) return 0;
   const AroundCourse around = AroundCourse::at(form.shape, kAround);
-  return around.kind == AroundCourse::kRaised || around.kind == AroundCourse::kBell
-             ? AroundCourse::kHalf
-             : around.kind;
+  return around.kind == AroundCourse::kBell ? AroundCourse::kHalf : around.kind;
 }
 
 constexpr double kNearly = 0.5;  // of what the best takes out: in its place it may be the best
@@ -158,6 +156,7 @@ double gain_of(const Projection& p) {
 struct Arounds {
   std::vector<AroundCourse> courses;
   Eigen::MatrixXd on_teeth, squares;
+  Eigen::ArrayXd beside_free_form;  ///< 0 of a mean and waves, 1 of others
 };
 Arounds arounds_of(const FlankGeometry& g) {
   constexpr int kFewest = 24, kMost = 96;
@@ -175,13 +174,17 @@ Arounds arounds_of(const FlankGeometry& g) {
     for (int tooth = 1; tooth <= g.teeth(); ++tooth)
       all.on_teeth(i, tooth - 1) = all.courses[static_cast<std::size_t>(i)].value(g, tooth);
   all.squares = all.on_teeth.cwiseAbs2();
+  all.beside_free_form.resize(all.on_teeth.rows());
+  for (Eigen::Index i = 0; i < all.on_teeth.rows(); ++i)
+    all.beside_free_form[i] =
+        all.courses[static_cast<std::size_t>(i)].is_of_free_form() ? 0.0 : 1.0;
   return all;
 }
 
 /// The best way around for a form of which every tooth's projection is known: as the residuals are,
 /// or beside names that take up what is alike on all teeth.
-Likely best_around(const Arounds& arounds, const std::vector<Projection>& of_teeth,
-                   FlankChoice flank, EffectShape shape) {
+Likely best_around(const FlankGeometry& g, const Arounds& arounds,
+                   const std::vector<Projection>& of_teeth, FlankChoice flank, EffectShape shape) {
   Eigen::VectorXd products(std::ssize(of_teeth)), squares(std::ssize(of_teeth));
   for (Eigen::Index t = 0; t < products.size(); ++t) {
     products[t] = of_teeth[static_cast<std::size_t>(t)].product;
@@ -199,8 +202,11 @@ Likely best_around(const Arounds& arounds, const std::vector<Projection>& of_tee
       (square > kAnything * all)
           .select(product.square() / square, 0.0)
           .max((square_beside > kAnything * all).select(beside_mean.square() / square_beside, 0.0));
+  // (a slope or bow in a wave, or raised, is what the free form has)
+  const bool free = FlankCourse::at(shape, 0).is_of_free_form(g, 0.0) &&
+                    FlankCourse::at(shape, FlankCourse::kValues).is_of_free_form(g, 1.0);
   Eigen::Index best = 0;
-  const double gain = gains.maxCoeff(&best);
+  const double gain = (free ? gains * arounds.beside_free_form : gains).maxCoeff(&best);
   const std::size_t own = shape.size();
   shape.resize(own + AroundCourse::kValues);
   arounds.courses[static_cast<std::size_t>(best)].put_in(shape, own);
@@ -403,6 +409,103 @@ std::vector<Pair> best_pairs(std::vector<Pair> pairs, const std::vector<CourseIn
   return best;
 }
 
+/// Waves along one direction in the cells: products with cosine and sine.
+struct WaveSum {
+  double c = 0.0, s = 0.0, weight = 0.0;
+  void add(const Sum& sum, const std::array<double, 2>& unit) {
+    c += sum.value * unit[0];
+    s += sum.value * unit[1];
+    weight += sum.weight;
+  }
+};
+/// (half of the square of a wave is what its cosine has)
+double gain_of(double c, double s, double weight) {
+  return weight > 0.0 ? 2.0 * (c * c + s * s) / weight : 0.0;
+}
+
+/// Waves over profile (0) or face (1) of the flanks of a way, both alike or one: those whose size
+/// follows a course in the other direction, alike on every tooth, and those that go around the
+/// gear.
+struct LikelyWaves {
+  std::vector<Likely> across, around;
+};
+LikelyWaves likely_waves(const FlankGeometry& g, const OfTeeth& teeth, const FlankWay& way,
+                         int face, const std::vector<CourseInCells>& across,
+                         const Arounds& arounds) {
+  constexpr double kFewest = 1.5, kMost = 14.0,
+                   kStep = 0.25;  // waves: a cell is half of one at most
+  const double range_mm =
+      face != 0 ? g.face_width_mm() : std::abs(g.tip_form_roll_mm() - g.root_form_roll_mm());
+  LikelyWaves likely;
+  for (double waves = kFewest; waves <= kMost; waves += kStep) {
+    const auto form = [&](const FlankCourse& course, const AroundCourse& where) {
+      EffectShape shape(2 + FlankCourse::kValues + AroundCourse::kValues);
+      shape[0] = face;
+      shape[1] = range_mm / waves;
+      course.put_in(shape, 2);
+      where.put_in(shape, 2 + FlankCourse::kValues);
+      return Effect{find_family("unnamed_crossed_waves"), way.flank, std::move(shape)};
+    };
+    std::vector<WaveSum> of_teeth(teeth.size());
+    std::array<WaveSum, kProductCells> over{};  // the other direction, of all teeth
+    for (std::size_t i = 0; i < kProductCells; ++i) {
+      const double angle = kTwoPi * waves * (static_cast<double>(i) + 0.5) / kProductCells;
+      const std::array unit{std::cos(angle), std::sin(angle)};
+      for (std::size_t t = 0; t < teeth.size(); ++t)
+        for (const std::size_t side : {0U, 1U}) {
+          if (way.signs[side] == 0.0) continue;
+          const OfFlank& flank = teeth[t][side];
+          of_teeth[t].add(face == 0 ? flank.profile[i] : flank.face[i], unit);
+          for (std::size_t k = 0; k < kProductCells; ++k)
+            over[k].add(face == 0 ? flank.both[i][k] : flank.both[k][i], unit);
+        }
+    }
+    for (const CourseInCells& course : across) {
+      if (course.course.kind == FlankCourse::kSlope) continue;
+      double c = 0.0, s = 0.0, weight = 0.0;
+      for (std::size_t k = 0; k < kProductCells; ++k) {
+        c += course.values[k] * over[k].c;
+        s += course.values[k] * over[k].s;
+        weight += course.values[k] * course.values[k] * over[k].weight;
+      }
+      likely.across.push_back({gain_of(c, s, weight), form(course.course, {AroundCourse::kEvery})});
+    }
+    for (std::size_t a = 0; a < arounds.courses.size(); ++a) {
+      double c = 0.0, s = 0.0, weight = 0.0;
+      for (std::size_t t = 0; t < teeth.size(); ++t) {
+        const double on =
+            arounds.on_teeth(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(t));
+        c += on * of_teeth[t].c;
+        s += on * of_teeth[t].s;
+        weight += on * on * of_teeth[t].weight;
+      }
+      likely.around.push_back({gain_of(c, s, weight), form({}, arounds.courses[a])});
+    }
+  }
+  return likely;
+}
+
+/// The best of these, each kind of course a list.
+void add_lists(std::vector<Likely> all, std::vector<LikelyForms>& lists) {
+  constexpr std::size_t kKinds = 3, kFew = 3, kAcross = 2, kAround = kAcross + FlankCourse::kValues;
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Likely& a, const Likely& b) { return a.gain > b.gain; });
+  std::vector<LikelyForms> own;
+  for (Likely& one : all) {
+    if (!(one.gain > 0.0) || one.gain < kNearly * all.front().gain) break;
+    const auto list = std::find_if(own.begin(), own.end(), [&](const LikelyForms& other) {
+      const EffectShape& shape = other.forms.front().shape;
+      return shape[kAcross] == one.form.shape[kAcross] && shape[kAround] == one.form.shape[kAround];
+    });
+    if (list == own.end()) {
+      if (own.size() < kKinds) own.push_back({one.gain, {one.form}});
+    } else if (list->forms.size() < kFew) {
+      list->forms.push_back(one.form);
+    }
+  }
+  std::move(own.begin(), own.end(), std::back_inserter(lists));
+}
+
 }  // namespace
 
 LikeliestProducts likeliest_products(const FlankGeometry& g, const Observations& table,
@@ -414,12 +517,14 @@ LikeliestProducts likeliest_products(const FlankGeometry& g, const Observations&
   const std::array<FlankWay, 4> ways = flank_ways(g);
   LikeliestProducts likeliest;
   std::vector<Likely> same, around, beside;
+  std::array<double, kProductCells> whole{};
+  whole.fill(1.0);
   const auto add_around = [&](const FlankCourse& profile, const FlankCourse& face,
                               const FlankWay& way, const auto& projection) {
     std::vector<Projection> of_teeth;
     for (const auto& tooth : teeth)
       of_teeth.push_back(together({projection(tooth[0]), projection(tooth[1])}, way));
-    around.push_back(best_around(arounds, of_teeth, way.flank, shape_of(profile, face, way)));
+    around.push_back(best_around(g, arounds, of_teeth, way.flank, shape_of(profile, face, way)));
   };
   for (const FlankWay& way : ways) {
     for (const CourseInCells& course : profiles)
@@ -436,8 +541,13 @@ LikeliestProducts likeliest_products(const FlankGeometry& g, const Observations&
       double most = 0.0;
       for (const Pair& pair : of) most = std::max(most, pair.alike);
       std::vector<Likely> forms;
+      // (a band times a band is a dish)
+      const auto is_band = [](const CourseInCells& course) {
+        return course.course.kind == FlankCourse::kBand;
+      };
       for (const Pair& pair : of)
-        if (pair.alike > kNearly * most)
+        if (pair.alike > kNearly * most &&
+            !(is_band(profiles[pair.profile]) && is_band(faces[pair.face])))
           forms.push_back(
               {pair.alike,
                {find_family("unnamed_crossed"), ways[pair.way].flank,
@@ -460,10 +570,30 @@ LikeliestProducts likeliest_products(const FlankGeometry& g, const Observations&
                                     faces[pair.face].values, false);
                  });
   }
+  // Where whole flanks that stand out on some teeth say nearly as much there is no course.
+  if (scan) {
+    constexpr double kMore = 1.05;
+    std::vector<Likely> with_course;
+    std::swap(around, with_course);
+    for (const FlankWay& way : ways)
+      add_around({}, {}, way,
+                 [&](const OfFlank& flank) { return projected(flank.profile, whole, false); });
+    double most = 0.0;
+    for (const Likely& one : around) most = std::max(most, one.gain);
+    std::erase_if(with_course, [&](const Likely& one) { return one.gain < kMore * most; });
+    std::swap(around, with_course);
+  }
   constexpr std::size_t kKinds = 4, kKindsOfAWay = 2;
   likeliest.same_on_every_tooth = best_of(std::move(same), kKinds);
   likeliest.beside_names = best_of(std::move(beside), kKinds);
   likeliest.around_the_gear = best_of(std::move(around), kKindsOfAWay);
+  for (const FlankWay& way : ways)
+    for (const int face : {0, 1}) {
+      if (way.opposite) continue;
+      LikelyWaves waves = likely_waves(g, teeth, way, face, face == 0 ? faces : profiles, arounds);
+      if (scan) add_lists(std::move(waves.across), likeliest.waves);
+      add_lists(std::move(waves.around), likeliest.waves);
+    }
   for (const auto& tooth : teeth)
     for (const OfFlank& flank : tooth) likeliest.square += flank.square;
   likeliest.square_beside_names += likeliest.square;

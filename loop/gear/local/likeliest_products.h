@@ -19,6 +19,7 @@ struct LikeliestProducts {
   std::vector<LikelyForms> same_on_every_tooth;    ///< unnamed_crossed
   std::vector<LikelyForms> beside_names;           ///< the same, beside levels, slopes and bows
   std::vector<LikelyForms> around_the_gear;        ///< unnamed_crossed_around
+  std::vector<LikelyForms> waves;                  ///< unnamed_crossed_waves
   double square = 0.0, square_beside_names = 0.0;  ///< of the residuals
 };
 

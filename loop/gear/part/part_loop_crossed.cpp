@@ -189,6 +189,19 @@ std::vector<Effect> PartLoop::with_products(std::vector<std::size_t>& these) con
             pieces.size() > 1 && pieces.size() < set.size())
           try_forms(pieces, {likely}, 0.0, {});
   }
+  // Waves whose size follows a course: what follows them are waves.
+  const bool waves = std::any_of(own.begin(), own.end(), [](const Effect& e) {
+    const auto& names = e.family->shape_names;
+    return std::find(names.begin(), names.end(), "wavelength_mm") != names.end() ||
+           e.family == find_family("unnamed_marks");
+  });
+  if (best.empty() && waves && nameless.size() > 1) {
+    const LikeliestProducts likeliest = likeliest_without(others_of(nameless));
+    for (const LikelyForms& likely : likeliest.waves) {
+      const auto pieces = pieces_of(likely.forms.front(), nameless);
+      if (pieces.size() > 1) try_forms(pieces, {likely}, 0.0, {});
+    }
+  }
   if (best.empty()) no_products_in_ = effects_;
   return best;
 }
