@@ -41,7 +41,7 @@ function(trueflank_test name)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
     target_precompile_headers(${target} REUSE_FROM trueflank_precompiled_test)
   endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 10)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 20)
   # One label a test: gtest_discover_tests passes on no lists.
   set(label ${name})
   if(arg_SLOW)

@@ -18,7 +18,7 @@ constexpr int kOrders = 1999, kProfileParts = 5, kFaceParts = 8, kFewestNeighbou
 /// A place on a flank, the same on every tooth: kind of record, source, profile part, face part.
 using PlaceKey = std::array<int, 4>;
 
-int part_of(double coordinate, int parts) {
+int part_of_range(double coordinate, int parts) {
   return std::clamp(static_cast<int>(0.5 * (coordinate + 1.0) * parts), 0, parts - 1);
 }
 
@@ -76,8 +76,8 @@ SharedByNeighbours shared_by_neighbours(const FlankGeometry& geometry, const Pat
     const Place& place = patch.places.front().place;
     if (patch.whole < 0 || count[i] == 0.0) continue;
     const PlaceKey key{static_cast<int>(patch.kind), patch.source,
-                       part_of(geometry.profile_coordinate(place.roll_mm), kProfileParts),
-                       part_of(geometry.face_coordinate(place.z_mm), kFaceParts)};
+                       part_of_range(geometry.profile_coordinate(place.roll_mm), kProfileParts),
+                       part_of_range(geometry.face_coordinate(place.z_mm), kFaceParts)};
     flanks[place.side > 0 ? 1 : 0].add(key, place.tooth, teeth, sum[i] / count[i], patch.weight);
     designed[static_cast<std::size_t>(place.tooth - 1)] = place.tooth - 1;
   }
