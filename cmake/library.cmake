@@ -30,7 +30,7 @@ function(trueflank_library folder)
   set_target_properties(${target} PROPERTIES
     EXPORT_NAME ${name}
     POSITION_INDEPENDENT_CODE ON
-    UNITY_BUILD_BATCH_SIZE 14)
+    UNITY_BUILD_BATCH_SIZE 28)
   target_compile_features(${target} ${interface} cxx_std_20)
   # The folders stand at the top level and are included as trueflank/<folder>/..., in the tree as after
   # installation: a link in the build folder makes it so.
@@ -68,7 +68,7 @@ function(trueflank_library folder)
   endif()
   if(arg_COMPUTES)
     add_library(${target}_computes OBJECT ${arg_COMPUTES})
-    set_target_properties(${target}_computes PROPERTIES POSITION_INDEPENDENT_CODE ON UNITY_BUILD_BATCH_SIZE 14)
+    set_target_properties(${target}_computes PROPERTIES POSITION_INDEPENDENT_CODE ON UNITY_BUILD_BATCH_SIZE 28)
     target_include_directories(${target}_computes PRIVATE ${include_root})
     foreach(dependency IN LISTS arg_DEPENDS)
       target_link_libraries(${target}_computes PRIVATE trueflank::${dependency})

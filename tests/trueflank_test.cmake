@@ -10,6 +10,11 @@ function(trueflank_test_cost result slow said)
   endif()
 endfunction()
 
+# The C library keeps freed memory, as the program tells it to (app/main.cpp): what the tests call is as quick as there.
+# One variable, without a list, for gtest_discover_tests.
+set(TRUEFLANK_TEST_MEMORY
+  "GLIBC_TUNABLES=glibc.malloc.mmap_threshold=1073741824:glibc.malloc.trim_threshold=1073741824:glibc.malloc.top_pad=8388608:glibc.malloc.arena_max=1")
+
 # The tests of one folder:
 #   trueflank_test(<name> [SLOW] [WHOLE | TOGETHER <filter>] [OPTIMISED] [COST <s>] SOURCES <file>... [LIBRARIES <target>...])
 # builds test_<name> and makes every TEST in it a test of its own, `<name>.Subject.Statement`.
@@ -41,7 +46,7 @@ function(trueflank_test name)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
     target_precompile_headers(${target} REUSE_FROM trueflank_precompiled_test)
   endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 10)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 20)
   # One label a test: gtest_discover_tests passes on no lists.
   set(label ${name})
   if(arg_SLOW)
@@ -50,17 +55,17 @@ function(trueflank_test name)
   trueflank_test_cost(cost "${arg_SLOW}" "${arg_COST}")
   if(arg_WHOLE)
     add_test(NAME ${name} COMMAND ${target})
-    set_tests_properties(${name} PROPERTIES LABELS ${label} COST ${cost})
+    set_tests_properties(${name} PROPERTIES LABELS ${label} COST ${cost} ENVIRONMENT "${TRUEFLANK_TEST_MEMORY}")
   else()
     set(others "*")
     if(arg_TOGETHER)
       set(others "-${arg_TOGETHER}")
       add_test(NAME ${name}.${arg_TOGETHER} COMMAND ${target} --gtest_filter=${arg_TOGETHER})
-      set_tests_properties(${name}.${arg_TOGETHER} PROPERTIES LABELS ${label} COST ${cost})
+      set_tests_properties(${name}.${arg_TOGETHER} PROPERTIES LABELS ${label} COST ${cost} ENVIRONMENT "${TRUEFLANK_TEST_MEMORY}")
     endif()
     # At test time, not after each link: listing tests is no part of building.
     gtest_discover_tests(${target} TEST_PREFIX "${name}." TEST_FILTER "${others}" DISCOVERY_MODE PRE_TEST
-      DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES PROPERTIES LABELS ${label} COST ${cost})
+      DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES PROPERTIES LABELS ${label} COST ${cost} ENVIRONMENT "${TRUEFLANK_TEST_MEMORY}")
   endif()
 endfunction()
 

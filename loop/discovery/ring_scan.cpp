@@ -315,6 +315,24 @@ class RingScan {
     if (other.square > best.square) best = other;
   }
 
+  /// Of the differences of so many numbers. Several beside each other, as each waits for the one
+  /// before it alone.
+  static double largest_square(const double* from, const double* to, Index count) {
+    constexpr Index kBeside = 8;
+    double largest[kBeside] = {};
+    Index i = 0;
+    for (; i + kBeside <= count; i += kBeside)
+      for (Index k = 0; k < kBeside; ++k) {
+        const double off = to[i + k] - from[i + k], square = off * off;
+        largest[k] = square > largest[k] ? square : largest[k];
+      }
+    for (; i < count; ++i) {
+      const double off = to[i] - from[i];
+      largest[0] = std::max(largest[0], off * off);
+    }
+    return *std::max_element(largest, largest + kBeside);
+  }
+
   void best_arc(const VectorXd& placed, int series, BestOfKind& best) const {
     std::vector<double> sums(static_cast<std::size_t>(2 * n_) + 1);
     for (Index i = 0; i < 2 * n_; ++i)
@@ -322,9 +340,12 @@ class RingScan {
     for (Index count = 2; count <= n_ / 2; ++count) {
       const double weight =
           static_cast<double>(n_) / (static_cast<double>(count) * static_cast<double>(n_ - count));
+      const double* const from = sums.data();
+      const double* const to = from + count;
+      if (largest_square(from, to, n_) * weight <= best.square)
+        continue;  // of few there are larger ones
       for (Index first = 0; first < n_; ++first) {
-        const double sum =
-            sums[static_cast<std::size_t>(first + count)] - sums[static_cast<std::size_t>(first)];
+        const double sum = to[first] - from[first];
         if (sum * sum * weight <= best.square) continue;
         best = {sum * sum * weight, series, static_cast<int>(first), static_cast<int>(count), 0};
       }

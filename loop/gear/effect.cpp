@@ -44,7 +44,7 @@ void put(const double* values, int count, double* to) {
   if (count > 1) to[1] = values[1];
   for (int k = 2; k < count; ++k) to[k] = values[k];
 }
-constexpr std::array<double, 8> kNothing{};
+constexpr std::array<double, 8> kNoColumns{};
 
 }  // namespace
 
@@ -67,7 +67,7 @@ void EffectsTogether::evaluate(const FlankGeometry& geometry, const Place& place
     if (!any_on_one_flank_) return;
     for (const One& one : ones_)
       if (one.flank != FlankChoice::kBoth && one.flank != here)
-        put(kNothing.data(), one.columns, columns + one.column);
+        put(kNoColumns.data(), one.columns, columns + one.column);
     return;
   }
   double last[8];
@@ -78,7 +78,7 @@ void EffectsTogether::evaluate(const FlankGeometry& geometry, const Place& place
     const bool acts = one.flank == FlankChoice::kBoth || one.flank == here;
     if (acts && !known) family.evaluate(geometry, place, effects_[e].shape, last);
     known = known || acts;
-    put(acts ? last : kNothing.data(), one.columns, columns + one.column);
+    put(acts ? last : kNoColumns.data(), one.columns, columns + one.column);
   }
 }
 

@@ -15,7 +15,7 @@ namespace trueflank::loop {
 
 namespace {
 
-constexpr std::size_t kRowsOfWork = 16384;
+constexpr std::size_t kRowsMovedAtOnce = 16384;
 
 /// Rows whose places are found together.
 constexpr std::size_t kOfOneMotion = 64;
@@ -26,11 +26,11 @@ using FoundTogether = std::array<PlacedPoint, kOfOneMotion>;
 template <class Work>
 double largest_of_points(const Observations& table, const Work& work) {
   const std::size_t rows = table.points_mm.size();
-  std::vector<double> largest((rows + kRowsOfWork - 1) / kRowsOfWork, 0.0);
+  std::vector<double> largest((rows + kRowsMovedAtOnce - 1) / kRowsMovedAtOnce, 0.0);
   for_each_piece(largest.size(), [&](std::size_t piece) {
-    const std::size_t end = std::min(rows, (piece + 1) * kRowsOfWork);
+    const std::size_t end = std::min(rows, (piece + 1) * kRowsMovedAtOnce);
     double most = 0.0;
-    for (std::size_t i = piece * kRowsOfWork; i < end; i += kOfOneMotion)
+    for (std::size_t i = piece * kRowsMovedAtOnce; i < end; i += kOfOneMotion)
       most = std::max(most, work(i, std::min(end, i + kOfOneMotion)));
     largest[piece] = most;
   });

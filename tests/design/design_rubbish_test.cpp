@@ -116,7 +116,7 @@ TEST(DesignRubbish, DeepNestingAndManyKeysCannotExhaustStackOrTime) {
 }
 
 /// What reading a path says.
-Error error_of(const std::string& path) {
+Error error_of_path(const std::string& path) {
   const auto design = read_design_file(path);
   EXPECT_FALSE(design);
   EXPECT_EQ(design.error().size(), 1u);
@@ -125,7 +125,7 @@ Error error_of(const std::string& path) {
 
 TEST(DesignRubbish, FilesThatCannotBeReadAreTheEnvironmentsFault) {
   for (const char* path : {"", "/nowhere/design.toml", "/dev/null/design.toml"}) {
-    const Error error = error_of(path);
+    const Error error = error_of_path(path);
     EXPECT_EQ(static_cast<int>(error.code), static_cast<int>(ErrorCode::kFileNotFound));
     EXPECT_EQ(exit_code(error.code), 3);
     EXPECT_NE(error.message.find(path), std::string::npos);
@@ -134,7 +134,7 @@ TEST(DesignRubbish, FilesThatCannotBeReadAreTheEnvironmentsFault) {
   std::ofstream(secret) << "format = 1\n";
   ::chmod(secret.c_str(), 0);
   if (::access(secret.c_str(), R_OK) != 0) {
-    const Error error = error_of(secret.string());
+    const Error error = error_of_path(secret.string());
     EXPECT_EQ(static_cast<int>(error.code), static_cast<int>(ErrorCode::kPermission));
     EXPECT_EQ(exit_code(error.code), 3);
   }
@@ -142,10 +142,10 @@ TEST(DesignRubbish, FilesThatCannotBeReadAreTheEnvironmentsFault) {
 }
 
 TEST(DesignRubbish, DirectoriesAndEndlessFilesAreWrongInput) {
-  const Error directory = error_of(TRUEFLANK_SOURCE_DIR);
+  const Error directory = error_of_path(TRUEFLANK_SOURCE_DIR);
   EXPECT_EQ(exit_code(directory.code), 2);
   EXPECT_NE(directory.message.find("is a directory"), std::string::npos);
-  const Error endless = error_of("/dev/zero");
+  const Error endless = error_of_path("/dev/zero");
   EXPECT_EQ(exit_code(endless.code), 2);
   EXPECT_NE(endless.message.find("larger than 1048576 bytes"), std::string::npos);
 }

@@ -21,13 +21,13 @@ std::string gear_file(const std::string& more, double module_mm = 1.0) {
          more + "\n[gear]\nteeth = 30\nface_width_mm = 8\n";
 }
 
-GearboxDesign read(const std::string& text) {
+GearboxDesign read_gear(const std::string& text) {
   const auto design = read_design_text(text, "a.toml");
   EXPECT_TRUE(design) << design.error().front().key << ": " << design.error().front().message;
   return design ? *design : GearboxDesign{};
 }
 
-Error error_of(const std::string& text) {
+Error error_of_gear(const std::string& text) {
   const auto design = read_design_text(text, "a.toml");
   EXPECT_FALSE(design);
   return design ? Error{} : design.error().front();
@@ -80,12 +80,12 @@ TEST(StandardTools, AreAllNamedOnceAndTellTheirSource) {
 }
 
 TEST(ToolNames, GiveTheRackAndSingleKeysChangeIt) {
-  EXPECT_EQ(read(gear_file("[rack]\nprofile = \"ISO53-D\"")).rack,
+  EXPECT_EQ(read_gear(gear_file("[rack]\nprofile = \"ISO53-D\"")).rack,
             find_rack(standard_tools(), "ISO53-D")->rack);
   // whatever their order
   for (const char* keys : {"profile = \"ISO53-D\"\nroot_radius = 0.2",
                            "root_radius = 0.2\nprofile = \"ISO53-D\""}) {
-    const BasicRack rack = read(gear_file(std::string("[rack]\n") + keys)).rack;
+    const BasicRack rack = read_gear(gear_file(std::string("[rack]\n") + keys)).rack;
     EXPECT_EQ(rack.dedendum, 1.4);
     EXPECT_EQ(rack.root_radius, 0.2);
   }
@@ -93,42 +93,42 @@ TEST(ToolNames, GiveTheRackAndSingleKeysChangeIt) {
 
 TEST(ToolNames, FinePitchRackIsDeeperTheSmallerTheModule) {
   const std::string rack = "[rack]\nprofile = \"AGMA-fine-pitch\"";
-  EXPECT_NEAR(read(gear_file(rack, 0.5)).rack.dedendum, 1.2 + 0.0508 / 0.5, 1e-12);
-  EXPECT_NEAR(read(gear_file(rack, 0.2)).rack.dedendum, 1.2 + 0.0508 / 0.2, 1e-12);
+  EXPECT_NEAR(read_gear(gear_file(rack, 0.5)).rack.dedendum, 1.2 + 0.0508 / 0.5, 1e-12);
+  EXPECT_NEAR(read_gear(gear_file(rack, 0.2)).rack.dedendum, 1.2 + 0.0508 / 0.2, 1e-12);
 }
 
 TEST(ToolNames, CutterByDiameterHasTheTeethThatFitTheModule) {
   const std::string ring = "[gearbox]\nkind = \"gear\"\nmodule_mm = 2\n[gear]\ninternal = true\n"
                            "teeth = 90\nface_width_mm = 8\nroot = \"shaper\"\n[gear.cutter]\n";
   const auto cutter = [&](const std::string& keys) {
-    return *read("format = 1\n" + ring + keys).gears[0].cutter;
+    return *read_gear("format = 1\n" + ring + keys).gears[0].cutter;
   };
   EXPECT_EQ(cutter("name = \"disc-75\"").teeth, 38);
   EXPECT_EQ(cutter("name = \"disc-75\"").tip_radius, 0.2);
   EXPECT_EQ(cutter("name = \"disc-75\"\nteeth = 36").teeth, 36);
   EXPECT_EQ(cutter("name = \"disc-75\"\nshift = -0.1").shift, -0.1);
-  EXPECT_EQ(error_of("format = 1\n" + ring + "shift = 0").key, "gear.cutter.teeth");
-  EXPECT_EQ(error_of("format = 1\n" + ring + "name = \"disc-76\"").key, "gear.cutter.name");
+  EXPECT_EQ(error_of_gear("format = 1\n" + ring + "shift = 0").key, "gear.cutter.teeth");
+  EXPECT_EQ(error_of_gear("format = 1\n" + ring + "name = \"disc-76\"").key, "gear.cutter.name");
 }
 
 TEST(ToolNames, UnknownOnesAreToldWithTheKnown) {
-  const Error error = error_of(gear_file("[rack]\nprofile = \"ISO53-E\""));
+  const Error error = error_of_gear(gear_file("[rack]\nprofile = \"ISO53-E\""));
   EXPECT_EQ(error.key, "rack.profile");
   EXPECT_EQ(error.line, 6);
   EXPECT_NE(error.remedy.find("ISO53-D"), std::string::npos);
-  EXPECT_EQ(error_of(gear_file("[made]\nprocess = \"magic\"")).key, "made.process");
-  EXPECT_EQ(error_of(gear_file("made = 3")).key, "gearbox.made");
+  EXPECT_EQ(error_of_gear(gear_file("[made]\nprocess = \"magic\"")).key, "made.process");
+  EXPECT_EQ(error_of_gear(gear_file("made = 3")).key, "gearbox.made");
 }
 
 TEST(ToolNames, ImpossibleProtuberanceIsToldWithItsKey) {
-  EXPECT_EQ(error_of(gear_file("[rack]\nprotuberance = 0.05\ngrinding_stock = 0.06")).key,
+  EXPECT_EQ(error_of_gear(gear_file("[rack]\nprotuberance = 0.05\ngrinding_stock = 0.06")).key,
             "rack.grinding_stock");
-  EXPECT_EQ(error_of(gear_file("[rack]\ngrinding_stock = 0.06")).key, "rack.grinding_stock");
+  EXPECT_EQ(error_of_gear(gear_file("[rack]\ngrinding_stock = 0.06")).key, "rack.grinding_stock");
   EXPECT_EQ(
-      error_of(gear_file("[rack]\nprotuberance = 0.05\nprotuberance_angle_deg = 20")).key,
+      error_of_gear(gear_file("[rack]\nprotuberance = 0.05\nprotuberance_angle_deg = 20")).key,
       "rack.protuberance_angle_deg");
   const std::string ring = gear_file("[rack]\nprotuberance = 0.05") + "internal = true\n";
-  EXPECT_EQ(error_of(ring).key, "rack.protuberance");
+  EXPECT_EQ(error_of_gear(ring).key, "rack.protuberance");
 }
 
 TEST(ToolsFile, AddsAndReplacesByName) {
@@ -207,7 +207,9 @@ TEST(ToolsFile, EveryKeyAndToolIsInTheDocumentation) {
 }
 
 TEST(ThicknessKeys, ContradictionsAreTold) {
-  const auto key_of = [](const std::string& keys) { return error_of(gear_file("") + keys).key; };
+  const auto key_of = [](const std::string& keys) {
+    return error_of_gear(gear_file("") + keys).key;
+  };
   EXPECT_EQ(key_of("thickness_allowance = \"cd25\"\nthinning_um = 20"), "gear.thinning_um");
   EXPECT_EQ(key_of("thickness_allowance = \"cd25\"\nthickness_upper_um = -3"),
             "gear.thickness_allowance");
@@ -215,7 +217,7 @@ TEST(ThicknessKeys, ContradictionsAreTold) {
   EXPECT_EQ(key_of("thickness_upper_um = -30\nthickness_lower_um = -20"),
             "gear.thickness_lower_um");
   const GearboxDesign design =
-      read(gear_file("") + "thickness_upper_um = -30\nthickness_lower_um = -70\n");
+      read_gear(gear_file("") + "thickness_upper_um = -30\nthickness_lower_um = -70\n");
   EXPECT_EQ(design.gears[0].thickness->upper_mm, -0.03);
   EXPECT_EQ(read_design_text(design_file_text(design), "a.toml")->gears, design.gears);
 }

@@ -12,7 +12,7 @@ namespace {
 
 std::string text() { return new_design_text(*find_train_kind("two-stage"), "two"); }
 
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
+std::string with_instead(std::string text, const std::string& what, const std::string& by) {
   const auto at = text.find(what);
   EXPECT_NE(at, std::string::npos) << what;
   return text.replace(at, what.size(), by);
@@ -30,7 +30,8 @@ std::vector<std::string> wrong_keys(const std::string& text) {
 using Keys = std::vector<std::string>;
 
 TEST(TwoStageFile, EachStageHasItsOwnPlanetsModuleAndCentreDistance) {
-  const auto design = read_design_text(replaced(text(), "[stage2]\n", "[stage2]\ncentre_distance_mm = 23.4\n"), "two.toml");
+  const auto design = read_design_text(
+      with_instead(text(), "[stage2]\n", "[stage2]\ncentre_distance_mm = 23.4\n"), "two.toml");
   ASSERT_TRUE(design) << design.error().front().message;
   ASSERT_EQ(design->later_stages.size(), 1U);
   EXPECT_EQ(design->planets, 3);
@@ -42,21 +43,25 @@ TEST(TwoStageFile, EachStageHasItsOwnPlanetsModuleAndCentreDistance) {
 }
 
 TEST(TwoStageFile, AModuleThatTheStageLeavesOutIsTheGearboxs) {
-  std::string shared = replaced(text(), "module_mm = 1.0                # it carries more torque\n", "");
+  std::string shared =
+      with_instead(text(), "module_mm = 1.0                # it carries more torque\n", "");
   const auto design = read_design_text(shared, "two.toml");
   ASSERT_TRUE(design) << design.error().front().message;
   EXPECT_EQ(module_of(*design, design->gears[3]), 0.8);
 }
 
 TEST(TwoStageFile, WhatIsMissingOrInTheWrongPlaceIsNamed) {
-  EXPECT_EQ(wrong_keys(replaced(text(), "[stage2]\nplanets = 4 ", "[stage2]\n#planets = 4 ")), Keys{"stage2.planets"});
+  EXPECT_EQ(wrong_keys(with_instead(text(), "[stage2]\nplanets = 4 ", "[stage2]\n#planets = 4 ")),
+            Keys{"stage2.planets"});
   const auto simple = [](const char* table) {
     return new_design_text(*find_train_kind("simple"), "one") + "\n[" + table + "]\nplanets = 3\n";
   };
   EXPECT_EQ(wrong_keys(simple("stage2")), Keys{"stage2"});
-  EXPECT_EQ(wrong_keys(replaced(text(), "planets = 4", "planets = 0")), Keys{"stage2.planets"});
-  EXPECT_EQ(wrong_keys(replaced(text(), "planets = 4", "planet = 4")), (Keys{"stage2.planets", "stage2.planet"}));
-  EXPECT_EQ(wrong_keys(replaced(text(), "teeth = 26", "teeth = 26\nmodule_mm = 1.1")).front(), "planet2.module_mm");
+  EXPECT_EQ(wrong_keys(with_instead(text(), "planets = 4", "planets = 0")), Keys{"stage2.planets"});
+  EXPECT_EQ(wrong_keys(with_instead(text(), "planets = 4", "planet = 4")),
+            (Keys{"stage2.planets", "stage2.planet"}));
+  EXPECT_EQ(wrong_keys(with_instead(text(), "teeth = 26", "teeth = 26\nmodule_mm = 1.1")).front(),
+            "planet2.module_mm");
 }
 
 TEST(TwoStageFile, AHousingIsRefusedAndSaysWhatThereIs) {
@@ -70,7 +75,7 @@ TEST(TwoStageFile, AHousingIsRefusedAndSaysWhatThereIs) {
 
 TEST(TwoStageFile, CarrierPinsAreAskedOfThePlanetsOfBothStages) {
   std::string bare = text();
-  for (int i = 0; i < 2; ++i) bare = replaced(bare, "bore_mm = 8.0\n", "\n");
+  for (int i = 0; i < 2; ++i) bare = with_instead(bare, "bore_mm = 8.0\n", "\n");
   Keys keys = wrong_keys(bare);
   std::sort(keys.begin(), keys.end());
   EXPECT_EQ(keys, (Keys{"planet1.bore_mm", "planet2.bore_mm"}));

@@ -216,7 +216,7 @@ TEST(HelicalGeneration, RoundingOfTheNormalSectionIsNoCircleInTheTransverseOne) 
 /// A ring and the helical pinion cutter that shapes it, at any height: the cutter's section is turned
 /// by its own helix, tan(beta) / r0 of the height, the ring's must have gone with it. The cutter's place
 /// is found by bisection on its backlash. Its tip rounding is an arc of its transverse section.
-void expect_cutter_generates(const ToothProfile& profile) {
+void expect_cutter_generates_helix(const ToothProfile& profile) {
   const Gear& g = profile.gear();
   const ShaperCutter& c = *g.cutter;
   const double m = g.normal_module_mm, beta = g.helix_angle_rad;
@@ -289,7 +289,7 @@ TEST(HelicalGeneration, RandomRingsAreWhatTheHelicalPinionCutterCuts) {
     }
     ++made;
     trimmed += profile->notes().tip_trimmed;
-    expect_cutter_generates(*profile);
+    expect_cutter_generates_helix(*profile);
     if (HasFailure()) return;
   }
   EXPECT_GT(made, 40);

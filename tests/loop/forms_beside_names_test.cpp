@@ -16,10 +16,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-bool tells(const loop::LoopResult& result, const std::string& words) {
-  return list(result).find(words) != std::string::npos;
-}
-
 double size_of(const loop::LoopResult& result, const std::string& effect,
                const std::string& parameter_name) {
   const loop::FoundEffect* found = find(result, effect);

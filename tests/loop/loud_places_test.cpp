@@ -18,7 +18,7 @@ using loop::FlankPart;
 using loop::loud_places;
 using loop::LoudPlace;
 
-constexpr int kTeeth = 24, kProfiles = 12, kFaces = 10;
+constexpr int kLoudTeeth = 24, kProfiles = 12, kFaces = 10;
 
 /// Normal errors, as loud as `loud` says, on a form.
 std::vector<FlankPart> parts_of(unsigned seed, const std::function<double(const FlankPart&)>& loud,
@@ -26,7 +26,7 @@ std::vector<FlankPart> parts_of(unsigned seed, const std::function<double(const 
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
   std::vector<FlankPart> parts;
-  for (int tooth = 1; tooth <= kTeeth; ++tooth)
+  for (int tooth = 1; tooth <= kLoudTeeth; ++tooth)
     for (const std::size_t side : {0U, 1U})
       for (int u = 0; u < kProfiles; ++u)
         for (int v = 0; v < kFaces; ++v) {

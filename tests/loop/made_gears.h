@@ -111,6 +111,10 @@ inline std::string list(const loop::LoopResult& result) {
   return text;
 }
 
+inline bool tells(const loop::LoopResult& result, const std::string& words) {
+  return list(result).find(words) != std::string::npos;
+}
+
 /// Of a pit, a lump, or a part of one flank.
 inline bool tells_spot(const loop::LoopResult& result) {
   const std::string told = list(result);

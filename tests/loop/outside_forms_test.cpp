@@ -13,10 +13,6 @@
 namespace trueflank::test {
 namespace {
 
-bool tells(const loop::LoopResult& result, const std::string& words) {
-  return list(result).find(words) != std::string::npos;
-}
-
 TEST(SectorBesideEccentricity, IsOneSectorAndTheEccentricityKeepsItsSize) {
   const MadeGear gear = spur(41);
   for (unsigned seed = 1; seed <= 3; ++seed) {

@@ -12,7 +12,7 @@
 namespace trueflank {
 namespace {
 
-GearboxDesign carried() {
+GearboxDesign carried_planets() {
   GearboxDesign design = test::prototype(0.5225, 1.9967, 25.6826);
   design.gears[1].bore.diameter_mm = 19.0;
   design.carrier = CarrierDesign{.plate_thickness_mm = 8.0,
@@ -30,7 +30,7 @@ const PartShape& part(const PartShapes& shapes, const std::string& name) {
 }
 
 TEST(Carrier, HasTwoPlatesAndAPinForEveryPlanet) {
-  const auto train = lay_out(carried());
+  const auto train = lay_out(carried_planets());
   const auto shapes = part_shapes(*train);
   ASSERT_TRUE(shapes);
   int pins = 0;
@@ -42,7 +42,7 @@ TEST(Carrier, HasTwoPlatesAndAPinForEveryPlanet) {
 }
 
 TEST(Carrier, PartsAreClosedShellsOfTheVolumeOfTheirCylinders) {
-  const auto train = lay_out(carried());
+  const auto train = lay_out(carried_planets());
   const auto shapes = part_shapes(*train);
   ASSERT_TRUE(shapes);
   // disc of 2 (25.6826 + 12.5) mm, pins of 10.02 mm; the seat 7 deep, the opening through 1 mm
@@ -138,14 +138,14 @@ int collisions(const GearTrain& train, const PartShapes& shapes, double sun_turn
 }
 
 TEST(Carrier, TheAssemblyTurnsWithoutRunningIntoIt) {
-  const auto train = lay_out(carried());
+  const auto train = lay_out(carried_planets());
   const auto shapes = part_shapes(*train);
   ASSERT_TRUE(shapes);
   for (int i = 0; i < 8; ++i) EXPECT_EQ(collisions(*train, *shapes, 0.83 * i), 0) << i;
 }
 
 TEST(Carrier, ThatTestSeesAPlateInARing) {
-  GearboxDesign design = carried();
+  GearboxDesign design = carried_planets();
   design.gears[4].face_width_mm = 12.0;  // ring2 beyond planet2, into the upper plate
   design.carrier->outer_diameter_mm = 86.0;
   const auto train = lay_out(design);
@@ -167,32 +167,32 @@ void expect_error(const GearboxDesign& design, const std::string& key) {
 }
 
 TEST(Carrier, EveryWallThatIsMissingIsTold) {
-  GearboxDesign design = carried();
+  GearboxDesign design = carried_planets();
   design.carrier->pin_diameter_mm = 19.0;
   expect_error(design, "carrier.pin_diameter_mm");
-  design = carried();
+  design = carried_planets();
   design.gears[1].bore = {.diameter_mm = 15.0, .kind = BoreKind::kHex};
   expect_error(design, "carrier.pin_diameter_mm");
-  design = carried();
+  design = carried_planets();
   design.carrier->bearing_diameter_mm = 41.0;
   expect_error(design, "carrier.bearing_diameter_mm");
-  design = carried();
+  design = carried_planets();
   design.carrier->opening_diameter_mm = 32.0;
   expect_error(design, "carrier.bearing_diameter_mm");
-  design = carried();
+  design = carried_planets();
   design.carrier->bearing_width_mm = 7.8;
   expect_error(design, "carrier.bearing_width_mm");
-  design = carried();
+  design = carried_planets();
   design.carrier->outer_diameter_mm = 61.0;
   expect_error(design, "carrier.outer_diameter_mm");
-  design = carried();
+  design = carried_planets();
   design.carrier->bearing_diameter_mm = 0.0;
   design.carrier->opening_diameter_mm = 41.0;
   expect_error(design, "carrier.opening_diameter_mm");
 }
 
 TEST(Carrier, ADesignWithoutOneHasNone) {
-  GearboxDesign design = carried();
+  GearboxDesign design = carried_planets();
   design.carrier.reset();
   const auto train = lay_out(design);
   const auto shapes = part_shapes(*train);

@@ -19,7 +19,7 @@ std::set<std::string> names_of(const PartShapes& shapes) {
   return names;
 }
 
-const PartShape& part(const PartShapes& shapes, const std::string& name) {
+const PartShape& part_named(const PartShapes& shapes, const std::string& name) {
   return *std::find_if(shapes.parts.begin(), shapes.parts.end(), [&](const PartShape& p) { return p.name == name; });
 }
 
@@ -29,7 +29,7 @@ double height_of(const PartShapes& shapes, const std::string& body) {
   return it == shapes.assembly.end() ? kNaN : it->translation_mm[2];
 }
 
-GearboxDesign carried() {
+GearboxDesign carried_stages() {
   GearboxDesign design = test::two_stage_design({.sun = 18, .planet = 36, .planets = 3, .module_mm = 0.8, .face_width_mm = 8.0},
                                                 {.sun = 20, .planet = 26, .planets = 4, .module_mm = 1.0, .face_width_mm = 14.0});
   design.carrier = CarrierDesign{.plate_thickness_mm = 4.0};
@@ -37,7 +37,7 @@ GearboxDesign carried() {
 }
 
 TEST(TwoStageParts, AreTheGearsOfBothWithTheirCarriers) {
-  GearboxDesign design = carried();
+  GearboxDesign design = carried_stages();
   const auto train = lay_out(design);
   ASSERT_TRUE(train);
   const auto shapes = part_shapes(*train);
@@ -46,7 +46,7 @@ TEST(TwoStageParts, AreTheGearsOfBothWithTheirCarriers) {
   EXPECT_EQ(names_of(*shapes), (std::set<std::string>{"sun1", "planet1", "ring1", "sun2", "planet2", "ring2", "carrier1",
                                                       "carrier1_pin", "carrier2", "carrier2_pin", "carrier2_top"}));
   EXPECT_EQ(shapes->assembly.size(), 1U + 3U + 1U + 1U + 4U + 1U + (1U + 3U) + (2U + 4U));
-  EXPECT_EQ(part(*shapes, "sun2").role, PartRole::kSun);
+  EXPECT_EQ(part_named(*shapes, "sun2").role, PartRole::kSun);
   EXPECT_NEAR(height_of(*shapes, "sun2"), 8.3, 1e-12);  // its plate, 0.3 above the planets of stage 1
   EXPECT_NEAR(height_of(*shapes, "planet2 4"), 8.3 + 4.0 + 1.0 + 4.3, 1e-12);
   design.carrier.reset();
@@ -57,12 +57,12 @@ TEST(TwoStageParts, AreTheGearsOfBothWithTheirCarriers) {
 }
 
 TEST(TwoStageParts, TheSunOfTheSecondIsPlateNeckAndTeeth) {
-  GearboxDesign design = carried();
+  GearboxDesign design = carried_stages();
   design.gears[3].bore.diameter_mm = 4.0;
   const auto train = lay_out(design);
   const auto shapes = part_shapes(*train);
   ASSERT_TRUE(shapes);
-  const PartMesh made = part_mesh(part(*shapes, "sun2"));
+  const PartMesh made = part_mesh(part_named(*shapes, "sun2"));
   const MeshValidity validity = mesh_validity(made.mesh);
   EXPECT_TRUE(validity.valid());
   EXPECT_EQ(validity.components, 1U);
@@ -87,7 +87,7 @@ TEST(TwoStageParts, ALargeSunHasANeckThatKeepsClearOfThePinsBelowIt) {
   const auto train = lay_out(design);
   const auto shapes = part_shapes(*train);
   ASSERT_TRUE(shapes) << shapes.error().front().message;
-  EXPECT_TRUE(mesh_validity(part_mesh(part(*shapes, "sun2")).mesh).valid());
+  EXPECT_TRUE(mesh_validity(part_mesh(part_named(*shapes, "sun2")).mesh).valid());
   design.gears[3].bore.diameter_mm = 17.0;  // within the teeth, not within the pins of stage 1
   const auto bored = lay_out(design);
   const auto refused = part_shapes(*bored);
@@ -96,7 +96,7 @@ TEST(TwoStageParts, ALargeSunHasANeckThatKeepsClearOfThePinsBelowIt) {
 }
 
 TEST(TwoStageParts, AnOpeningTooSmallForTheNeckIsRefused) {
-  GearboxDesign design = carried();
+  GearboxDesign design = carried_stages();
   design.carrier->opening_diameter_mm = 17.2;  // the neck has 2 (10 - 1.25 - 0.25) = 17 mm
   const auto train = lay_out(design);
   const auto refused = part_shapes(*train);

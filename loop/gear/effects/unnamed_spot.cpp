@@ -63,6 +63,15 @@ std::string about_tooth(int teeth, double tooth, double half_teeth) {
                         : printed(", %.0f teeth to either side", beside));
 }
 
+/// std::remainder, which takes longer than all else here, where the number is not far around.
+double off_around(double teeth, double around) {
+  const double half = 0.5 * around;
+  if (std::abs(teeth) < half) return teeth;
+  if (teeth > half && teeth < 1.5 * around) return teeth - around;  // without rounding
+  if (teeth < -half && teeth > -1.5 * around && teeth != -around) return teeth + around;
+  return std::remainder(teeth, around);
+}
+
 }  // namespace
 
 EffectFamily unnamed_dent() {
@@ -71,7 +80,7 @@ EffectFamily unnamed_dent() {
     c[0] = 0.0;
     if (p.surface != Surface::kFlank) return;
     const double z = g.teeth();
-    const double off = std::remainder(p.tooth - shape[0], z);
+    const double off = off_around(p.tooth - shape[0], z);
     c[0] = bell(off, shape[1]) * (shape[3] > 0.0 ? bell(p.z_mm - shape[2], shape[3]) : 1.0);
   };
   f.term_keys = {number("tooth"), number("half_teeth"), number("height_mm"), number("half_mm")};
@@ -94,7 +103,7 @@ EffectFamily unnamed_swellings() {
     if (p.surface != Surface::kFlank) return;
     const double z = g.teeth();
     for (int k = 0; k < static_cast<int>(shape[0]); ++k)
-      c[0] += bell(std::remainder(p.tooth - shape[1] - k * z / shape[0], z), shape[2]);
+      c[0] += bell(off_around(p.tooth - shape[1] - k * z / shape[0], z), shape[2]);
   };
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     std::vector<EffectShape> shapes;

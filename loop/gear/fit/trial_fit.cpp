@@ -40,6 +40,7 @@ TrialFit::TrialFit(const FlankGeometry& geometry, const SharedTable& shared, con
     if (trace >= 0) trace_weight_[static_cast<std::size_t>(trace)] += weight;
   }
   all_rows_.key = EffectValues::key_of(all_rows_.rows);
+  find_runs();
   find_alike(cells);
   const NuisanceColumns nuisance(geometry, table);
   Eigen::Index columns = nuisance.count();
@@ -113,22 +114,65 @@ void TrialFit::find_alike(FlankCells cells) {
   kind_products_.diagonal() += kind_weight_;
 }
 
+/// Rows of one trace that follow each other, trace by trace.
+void TrialFit::find_runs() {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const int trace = rows_[i].trace;
+    root_.push_back(rows_[i].root);
+    weight_.push_back(rows_[i].root * rows_[i].root);
+    if (trace < 0) continue;
+    if (runs_.empty() || runs_.back().trace != trace || runs_.back().end != i)
+      runs_.push_back({trace, i, i});
+    ++runs_.back().end;
+  }
+}
+
+/// Weighted means over every trace of value(i) of its rows. Each sum in the order of the rows; it
+/// waits for itself alone, and so four traces are summed beside each other.
+template <class Value>
+void TrialFit::means_of_traces(const Value& value, double* means) const {
+  constexpr std::size_t kBeside = 4;
+  const auto add = [&](const Run& run, std::size_t from) {
+    double sum = means[run.trace];
+    for (std::size_t i = run.first + from; i < run.end; ++i) sum += weight_[i] * value(i);
+    means[run.trace] = sum;
+  };
+  std::fill_n(means, trace_weight_.size(), 0.0);
+  std::size_t r = 0;
+  for (; r + kBeside <= runs_.size(); r += kBeside) {
+    const Run* const run = &runs_[r];
+    const bool apart = run[0].trace != run[2].trace && run[0].trace != run[3].trace &&
+                       run[1].trace != run[3].trace && run[0].trace != run[1].trace &&
+                       run[1].trace != run[2].trace && run[2].trace != run[3].trace;
+    std::size_t both = 0;
+    if (apart) {
+      both = std::min({run[0].end - run[0].first, run[1].end - run[1].first,
+                       run[2].end - run[2].first, run[3].end - run[3].first});
+      double sum[kBeside];
+      for (std::size_t j = 0; j < kBeside; ++j) sum[j] = means[run[j].trace];
+      for (std::size_t k = 0; k < both; ++k)
+        for (std::size_t j = 0; j < kBeside; ++j)
+          sum[j] += weight_[run[j].first + k] * value(run[j].first + k);
+      for (std::size_t j = 0; j < kBeside; ++j) means[run[j].trace] = sum[j];
+    }
+    for (std::size_t j = 0; j < kBeside; ++j) add(run[j], both);
+  }
+  for (; r < runs_.size(); ++r) add(runs_[r], 0);
+  for (std::size_t t = 0; t < trace_weight_.size(); ++t)
+    if (trace_weight_[t] > 0.0) means[t] /= trace_weight_[t];
+}
+
 /// Takes the weighted mean of every trace out and puts the roots of the weights on.
 void TrialFit::centre(Eigen::MatrixXd& columns) const {
-  std::vector<double> mean(trace_weight_.size());
+  std::vector<double> means(trace_weight_.size());
   for (Eigen::Index k = 0; k < columns.cols(); ++k) {
-    std::fill(mean.begin(), mean.end(), 0.0);
-    for (std::size_t i = 0; i < rows_.size(); ++i)
-      if (rows_[i].trace >= 0)
-        mean[static_cast<std::size_t>(rows_[i].trace)] +=
-            rows_[i].root * rows_[i].root * columns(static_cast<Eigen::Index>(i), k);
-    for (std::size_t t = 0; t < mean.size(); ++t)
-      if (trace_weight_[t] > 0.0) mean[t] /= trace_weight_[t];
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      double& value = columns(static_cast<Eigen::Index>(i), k);
-      if (rows_[i].trace >= 0) value -= mean[static_cast<std::size_t>(rows_[i].trace)];
-      value *= rows_[i].root;
+    double* const column = columns.col(k).data();
+    if (!runs_.empty()) means_of_traces([&](std::size_t i) { return column[i]; }, means.data());
+    for (const Run& run : runs_) {
+      const double mean = means[static_cast<std::size_t>(run.trace)];
+      for (std::size_t i = run.first; i < run.end; ++i) column[i] -= mean;
     }
+    for (std::size_t i = 0; i < root_.size(); ++i) column[i] *= root_[i];
   }
 }
 
@@ -176,13 +220,8 @@ Eigen::MatrixXd TrialFit::zeros_of_kinds(const Eigen::MatrixXd& values) const {
   Eigen::MatrixXd zeros =
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(trace_weight_.size()), values.cols());
   for (Eigen::Index k = 0; k < values.cols(); ++k) {
-    double* const zero = zeros.col(k).data();
     const double* const value = values.col(k).data();
-    for (std::size_t i = 0; i < rows_.size(); ++i)
-      if (rows_[i].trace >= 0)
-        zero[rows_[i].trace] += rows_[i].root * rows_[i].root * value[alike_->kind[i]];
-    for (std::size_t t = 0; t < trace_weight_.size(); ++t)
-      if (trace_weight_[t] > 0.0) zero[t] /= trace_weight_[t];
+    means_of_traces([&](std::size_t i) { return value[alike_->kind[i]]; }, zeros.col(k).data());
   }
   return zeros;
 }

@@ -59,6 +59,11 @@ class TrialFit {
     int trace = -1;
     double root = 0.0;  ///< of its weight
   };
+  /// Of a trace, from one place in rows_ to before another.
+  struct Run {
+    int trace = 0;
+    std::size_t first = 0, end = 0;
+  };
   /// Columns with a row for each value (weighted, zeros taken out) or for each kind of rows (neither).
   struct Columns {
     Eigen::MatrixXd values;
@@ -80,6 +85,9 @@ class TrialFit {
   [[nodiscard]] Eigen::MatrixXd full(const Columns& columns) const;
   [[nodiscard]] Eigen::MatrixXd products_with_all(const Columns& columns) const;
   [[nodiscard]] Eigen::MatrixXd own_products(const Columns& columns) const;
+  void find_runs();
+  template <class Value>
+  void means_of_traces(const Value& value, double* means) const;
   void centre(Eigen::MatrixXd& columns) const;
   void put_columns(const std::vector<std::size_t>& effects);
   void sum_over_kinds(Eigen::Index first, Eigen::Index count);
@@ -92,6 +100,8 @@ class TrialFit {
   std::vector<Effect> effects_;
   std::vector<Eigen::Index> first_column_;
   std::vector<Row> rows_;
+  std::vector<double> root_, weight_;  ///< of the same, beside each other
+  std::vector<Run> runs_;
   RowSet all_rows_, first_of_kinds_;
   std::optional<AlikeRows> alike_;          ///< where rows are alike
   std::vector<double> trace_weight_;

@@ -12,7 +12,7 @@ namespace trueflank::loop {
 namespace {
 
 /// Fewer points than this say nothing of a land; so many of one tooth say where its own is.
-constexpr std::size_t kFewest = 20, kOfOneTooth = 5;
+constexpr std::size_t kFewestOfAll = 20, kOfOneTooth = 5;
 
 }  // namespace
 
@@ -60,8 +60,8 @@ MeasuredLands::MeasuredLands(const FlankGeometry& geometry, const ScanData& scan
   };
   for (const auto& points : near)
     for (const NearLand& point : points) sort(point.radius_mm, point.from_first_rad);
-  if (roots.size() >= kFewest) root_mm_ = geometry.sense() * median(roots);
-  if (tips.size() < kFewest) return;
+  if (roots.size() >= kFewestOfAll) root_mm_ = geometry.sense() * median(roots);
+  if (tips.size() < kFewestOfAll) return;
   const double whole = median(tips);
   std::vector<double> scatter;
   for (std::size_t k = 0; k < tip_mm_.size(); ++k) {

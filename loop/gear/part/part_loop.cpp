@@ -46,6 +46,7 @@ void PartLoop::forget_fits() {
   fits_.clear();
   plain_fit_.reset();
   plain_um_.reset();
+  sought_.clear();
   names_ = {};
 }
 
@@ -63,6 +64,20 @@ std::shared_ptr<const PointFit> PartLoop::fit_of(const std::vector<Effect>& effe
   }
   std::rotate(fits_.begin(), found, found + 1);
   return fits_.front();
+}
+
+std::vector<Effect> PartLoop::with_best_form(const std::vector<Effect>& rest,
+                                             const std::vector<Effect>& forms,
+                                             const MostLeft& most) const {
+  constexpr std::size_t kMostKept = 64;
+  const auto known = std::find_if(sought_.rbegin(), sought_.rend(), [&](const SoughtForm& one) {
+    return one.most == most && one.rest == rest && one.forms == forms;
+  });
+  if (known != sought_.rend()) return known->found;
+  std::vector<Effect> found = best_form_sought(rest, forms, most);
+  if (sought_.size() == kMostKept) sought_.pop_front();
+  sought_.push_back({rest, forms, most, found});
+  return found;
 }
 
 std::shared_ptr<const PointFit> PartLoop::plain_fit() const {

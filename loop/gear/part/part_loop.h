@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -189,10 +190,14 @@ class PartLoop {
   /// What a form that is tried may leave at most: before its place and widths are sought, and then.
   struct MostLeft {
     double on_the_grid = 1e300, in_place = 1e300;
+    [[nodiscard]] bool operator==(const MostLeft&) const = default;
   };
-  [[nodiscard]] std::vector<Effect> with_best_form(std::vector<Effect> rest,
+  [[nodiscard]] std::vector<Effect> with_best_form(const std::vector<Effect>& rest,
                                                    const std::vector<Effect>& forms,
                                                    const MostLeft& most) const;
+  [[nodiscard]] std::vector<Effect> best_form_sought(std::vector<Effect> rest,
+                                                     const std::vector<Effect>& forms,
+                                                     const MostLeft& most) const;
   [[nodiscard]] std::optional<double> largest_wavelength_mm(
       const std::vector<std::size_t>& of) const;
   [[nodiscard]] std::optional<RemainderFinding> wave_of_pieces(int face, FlankChoice flank) const;
@@ -328,6 +333,13 @@ class PartLoop {
   Kept kept_;
   mutable std::vector<std::shared_ptr<const PointFit>> fits_;  ///< the one asked for last first
   mutable std::shared_ptr<const PointFit> plain_fit_;
+  /// Forms that were sought, and what was found: different steps ask the same.
+  struct SoughtForm {
+    std::vector<Effect> rest, forms;
+    MostLeft most;
+    std::vector<Effect> found;
+  };
+  mutable std::deque<SoughtForm> sought_;               ///< the last one last
   std::shared_ptr<const std::vector<float>> plain_um_;  ///< what it leaves, where it was looked at
   /// A form and the names it was compared with; while forms are compared one after the other, and
   /// until the columns of candidates are made.

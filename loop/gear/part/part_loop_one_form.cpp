@@ -95,9 +95,9 @@ bool is_slope_beside_slope(const FlankGeometry& geometry, const std::vector<Effe
 
 /// The form that leaves least in place of the last effect: of each family the best by trial, of the
 /// best of these each in its place, then beside the others. Empty where all leave too much.
-std::vector<Effect> PartLoop::with_best_form(std::vector<Effect> rest,
-                                             const std::vector<Effect>& forms,
-                                             const MostLeft& most) const {
+std::vector<Effect> PartLoop::best_form_sought(std::vector<Effect> rest,
+                                               const std::vector<Effect>& forms,
+                                               const MostLeft& most) const {
   // A kink is nearer to a rise than that is at its first width.
   constexpr std::size_t kFamilies = 3;
   constexpr double kClearly = 25.0;  // chi-square
