@@ -28,14 +28,16 @@ bool is_a_piece(const FlankGeometry& geometry, const Effect& form) {
 
 /// True where the forms beside a name of all teeth are few, each a thing of its own, and no more
 /// than a part of it hangs on them.
-bool stands_among_few_forms(const FlankGeometry& geometry, const PointFit& fit, std::size_t e) {
-  constexpr double kPart = 0.1, kUndone = 0.5, kLevel = 0.5, kSameCourse = 0.95;
+bool stands_among_few_forms(const FlankGeometry& geometry, const PointFit& fit, std::size_t e,
+                            bool shows_heights) {
+  constexpr double kPart = 0.1, kUndone = 0.5, kSameCourse = 0.95;
   constexpr int kMostForms = 2;
   FlankField own = field_of(geometry, fit, e);
   const double all = own.norm();
   FlankField bent = own;
   take_off_heights(bent);
-  const bool level = bent.norm() < kLevel * all;
+  const double most = shows_heights ? 0.5 : 1e-6;
+  const bool level = bent.norm() < most * all;
   if (!level) own = bent;
   const Eigen::VectorXd name = own.col(0);
   FlankField forms = FlankField::Zero(own.rows(), own.cols());
@@ -94,7 +96,8 @@ bool PartLoop::is_settled(const PointFit& fit, std::size_t e) const {
   const Runs runs = runs_of(geometry_, name, Flanks::kOfEither);
   return is_name_of_all_teeth(name) && name.shape.size() <= 1 && runs != Runs::kOverBoth &&
          runs != Runs::kOtherwise && is_possible(geometry_, fit, static_cast<int>(e)) &&
-         stands_among_few_forms(geometry_, fit, e) && is_beyond_doubt(fit, e);
+         stands_among_few_forms(geometry_, fit, e, !table_->points_mm.empty()) &&
+         is_beyond_doubt(fit, e);
 }
 
 /// A wave of both flanks beside nothing around the gear but drifts of one flank: the other shows
@@ -146,10 +149,10 @@ std::vector<Effect> PartLoop::names_of_term(const Effect& term) const {
 }
 
 /// What curves towards a place on all flanks, or is longer than they are, and what else is smooth
-/// along the profile (0) or the face (1), may be one or two names: where these say as much with no
-/// more values, or far more with one.
+/// along the profile (0) or the face (1), may be one or two names: where these need fewer values
+/// and leave little more for them, or leave clearly less with as many.
 bool PartLoop::tell_as_names(int face) {
-  constexpr double kDenied = 9.0, kValue = 6.0, kBetter = 1.0;  // chi-square
+  constexpr double kClearly = 9.0, kValue = 6.0, kBetter = 1.0;  // chi-square
   const Runs runs = face == 0 ? Runs::kOverProfile : Runs::kOverFace;
   std::vector<std::size_t> these;
   std::vector<Effect> own, rest;
@@ -180,11 +183,14 @@ bool PartLoop::tell_as_names(int face) {
     const std::vector<Effect> names(with.begin() + static_cast<std::ptrdiff_t>(rest.size()),
                                     with.end());
     const int spared = values_of(own, true) - values_of(names, true);
+    const double cost = fit_of(with)->residual_square() - kValue * spared;
+    if (spared < 0 || cost > least - kBetter || cost > now - (spared == 0 ? kClearly : 0.0)) return;
     const auto fit = fit_of(with);
-    const double cost = fit->residual_square() - kValue * spared;
-    if (cost > least - kBetter || cost > now + (spared < 0 ? -kDenied : kDenied)) return;
-    for (std::size_t e = rest.size(); e < with.size(); ++e)
-      if (!is_settled(*fit, e)) return;
+    for (std::size_t e = rest.size(); e < with.size(); ++e) {
+      // A hollow bow beside a slope is what swells towards an end.
+      const bool hollow = fit->coefficients()[fit->first_column(static_cast<int>(e))] < 0.0;
+      if ((hollow && !is_straight(geometry_, with[e])) || !is_settled(*fit, e)) return;
+    }
     least = cost;
     best = std::move(with);
   };
