@@ -41,11 +41,19 @@ bool stands_among_few_forms(const FlankGeometry& geometry, const PointFit& fit, 
   if (!level) own = bent;
   const Eigen::VectorXd name = own.col(0);
   FlankField forms = FlankField::Zero(own.rows(), own.cols());
+  const Runs runs = runs_of(geometry, fit.effects()[e], Flanks::kOfEither);
   double undone = 0.0;
-  int count = 0;
+  int count = 0, waves = 0;
   for (std::size_t f = 0; f < fit.effects().size(); ++f) {
     const Effect& form = fit.effects()[f];
     if (f == e || !form.is_term()) continue;
+    // A bow without a name beside a slope: one curve may be both.
+    if (form.family == find_family("unnamed") && form.order() == 0.0 &&
+        form.shape[0] + form.shape[1] > 1.0 && runs_of(geometry, form, Flanks::kOfEither) == runs)
+      return false;
+    // Sharp waves, and combs, lift the flanks.
+    waves += form.order() == 0.0 && form.columns() == 2 ? 1 : 0;
+    if (level && (waves > 1 || form.family == find_family("unnamed_alternation"))) return false;
     FlankField field = field_of(geometry, fit, f);
     if (form.order() == 0.0 && form.columns() == 1) forms += field;
     if (!level) take_off_heights(field);
