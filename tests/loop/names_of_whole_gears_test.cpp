@@ -85,6 +85,29 @@ TEST(NamesOfWholeGears, ATaperBesideAThicknessThatWobbles) {
   EXPECT_NEAR(parameter(*find(result, "taper"), "slope_um").value, -4.2, 0.2) << list(result);
 }
 
+// Nicks on a few teeth made the choice forget that the gear is out of round.
+TEST(NamesOfWholeGears, LobesBesideNicksAtTheTips) {
+  const MadeGear gear = helical(21, 13.0);
+  struct Nick {
+    int tooth, side;
+    double v;
+  };
+  const auto nicked = [](auto&, const FlankSpot& s, auto&) {
+    double um = 0.0;
+    for (const Nick& nick :
+         {Nick{15, 1, 0.4}, {5, -1, -0.56}, {9, -1, 0.28}, {13, -1, -0.76}, {3, 1, 0.28}})
+      if (s.tooth == nick.tooth && s.side == nick.side)
+        um +=
+            47.0 * std::exp(-std::pow((s.u - 0.9) / 0.25, 2) - std::pow((s.v - nick.v) / 0.22, 2));
+    return um;
+  };
+  const auto result = close(
+      gear, scan_of(gear, {out_of_round(3, 22.9, -44.3), grown(nicked)}, scanned(13000, 2.0, 1)),
+      true);
+  ASSERT_NE(find(result, "lobing"), nullptr) << list(result);
+  EXPECT_NEAR(parameter(*find(result, "lobing"), "amplitude_um").value, 22.9, 0.8) << list(result);
+}
+
 // A little that may be left does not keep an answer that leaves several times more.
 TEST(NamesOfWholeGears, AScaleAndALeadBesideDirtOnOneSide) {
   constexpr double kPercent = -0.54, kTowards = 4.38;

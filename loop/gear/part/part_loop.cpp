@@ -120,6 +120,7 @@ void PartLoop::run() {
   prefer_one_name_to_two();
   take_other_start();
   take_form_around();
+  name_what_is_settled();
   drop_names_that_may_be_nothing();
   remainder_ = remainder_of(effects_, RemainderOf::kAll);
   if (!structure_is_left()) return;

@@ -239,6 +239,12 @@ class PartLoop {
   void drop_idle_beside_one_form();
   void turn_kinks_beside_slopes();
   void name_terms_beside_forms();
+  [[nodiscard]] bool is_beyond_doubt(const PointFit& fit, std::size_t effect) const;
+  [[nodiscard]] bool is_settled(const PointFit& fit, std::size_t effect) const;
+  [[nodiscard]] bool is_settled_wave(const PointFit& fit, std::size_t effect) const;
+  [[nodiscard]] std::vector<Effect> names_of_term(const Effect& term) const;
+  [[nodiscard]] bool tell_as_names(int face);
+  void name_what_is_settled();
   void name_forms_beside_names();
   struct LeastMissed {
     std::size_t effect = 0;

@@ -228,7 +228,8 @@ bool PartLoop::ban_misnamed() {
       if (effect.family->doubted_by_any_order ? term.order() == 0.0 : term.order() != order)
         continue;
       for (std::size_t g = 0; g < candidates_.size(); ++g)
-        if (candidates_[g].family->named && candidates_[g].shape == effect.shape &&
+        if (candidates_[g].family->named && candidates_[g].order() == order &&
+            candidates_[g].shape == effect.shape &&
             candidates_[g].family->shape_names == effect.family->shape_names)
           ban(g);
     }

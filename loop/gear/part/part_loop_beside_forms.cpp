@@ -95,20 +95,6 @@ bool PartLoop::stands_beside_forms(const PointFit& fit, std::size_t e) const {
   return runs;
 }
 
-namespace {
-
-/// True of what is so wide or long that the flank is a small part of it: a bow, told another way.
-bool is_longer_than_the_flank(const FlankGeometry& geometry, const Effect& form, bool face) {
-  constexpr double kMostOfIt = 0.5, kLongest = 1.5;
-  const double range_mm =
-      face ? geometry.face_width_mm()
-           : std::abs(geometry.tip_form_roll_mm() - geometry.root_form_roll_mm());
-  return (form.family == find_family("unnamed_band") && form.shape[2] > kMostOfIt * range_mm) ||
-         (form.family == find_family("unnamed_waviness") && form.shape[1] > kLongest * range_mm);
-}
-
-}  // namespace
-
 /// A slope or a bow stands by itself beside the one form that there is along its flanks where that
 /// has no part of its course, as an S or a bow has no slope, and no form that bends, steps, rises
 /// or comes in waves says both.
@@ -197,7 +183,8 @@ void PartLoop::turn_kinks_beside_slopes() {
     const Runs runs = kink.shape[0] != 0.0 ? Runs::kOverFace : Runs::kOverProfile;
     const bool beside_slope =
         std::any_of(effects_.begin(), effects_.end(), [&](const Effect& other) {
-          return (other.flank == kink.flank || other.flank == FlankChoice::kBoth) &&
+          return &other != &kink &&
+                 (other.flank == kink.flank || other.flank == FlankChoice::kBoth) &&
                  is_straight(geometry_, other) && runs_of(geometry_, other) == runs;
         });
     if (!beside_slope) continue;

@@ -11,40 +11,13 @@
 #include "trueflank/base/threads.h"
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/gear/paired_sums.h"
+#include "trueflank/loop/gear/part/flank_fields.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/table/rows_by_class.h"
 
 namespace trueflank::loop {
 
 namespace {
-
-constexpr int kGridSide = 5;
-
-/// What an effect does on a grid over the flanks: a column a tooth; left flank first, then right
-/// one, height by height from root to tip.
-using FlankField = Eigen::MatrixXd;
-
-FlankField field_of(const FlankGeometry& geometry, const PointFit& fit, std::size_t effect) {
-  const Effect& one = fit.effects()[effect];
-  const int first = fit.first_column(static_cast<int>(effect));
-  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
-  FlankField field(2 * kGridSide * kGridSide, geometry.teeth());
-  double columns[8];
-  for (int tooth = 1; tooth <= geometry.teeth(); ++tooth) {
-    Eigen::Index at = 0;
-    for (const int side : {1, -1})
-      for (int v = 0; v < kGridSide; ++v)
-        for (int u = 0; u < kGridSide; ++u, ++at) {
-          const double roll = low + (u + 0.5) / kGridSide * (high - low);
-          const double z = (v + 0.5) / kGridSide * geometry.face_width_mm();
-          one.evaluate(geometry, geometry.on_flank(tooth, side, roll, z), columns);
-          double sum = 0.0;
-          for (int k = 0; k < one.columns(); ++k) sum += fit.coefficients()[first + k] * columns[k];
-          field(at, tooth - 1) = sum;
-        }
-  }
-  return field;
-}
 
 /// What of a field is the same on all teeth, without the parts that are a course over the profile
 /// or over the face alone: a twist, and all else that needs both.
@@ -99,15 +72,6 @@ bool may_have_a_mean(const FlankField& forms, const Eigen::VectorXd& name) {
   if (std::min(-low, high) < kHardly * std::max(-low, high)) return true;
   return static_cast<double>((along.abs() < kNearly * (high - low)).count()) >=
          kMany * static_cast<double>(along.size());
-}
-
-/// A field without the height of each flank, which traces with zeros of their own do not show.
-void take_off_heights(Eigen::Ref<FlankField> field) {
-  for (const Eigen::Index flank : {0, 1}) {
-    auto own = field.middleRows(flank * kGridSide * kGridSide, kGridSide * kGridSide);
-    const Eigen::RowVectorXd height = own.colwise().mean();
-    own.rowwise() -= height;
-  }
 }
 
 /// What a field is mostly: a course over the flanks that comes and goes around the gear.
@@ -348,54 +312,6 @@ double spread_over_flanks(const FlankGeometry& geometry, const Observations& tab
   if (variance < kBeyondErrors * error) return 0.0;
   const double size = fit.coefficients()[fit.first_column(static_cast<int>(e))];
   return std::sqrt(variance - error) / std::abs(size);
-}
-
-/// Effects in the mean of the teeth, on the grid of one flank: heights down, rolls across.
-using MeanOfFlank = Eigen::Matrix<double, kGridSide, kGridSide>;
-std::array<MeanOfFlank, 2> mean_of_flanks(const FlankField& field) {
-  const Eigen::VectorXd mean = field.rowwise().mean();
-  std::array<MeanOfFlank, 2> flanks;
-  for (const std::size_t flank : {0, 1})
-    for (int v = 0; v < kGridSide; ++v)
-      for (int u = 0; u < kGridSide; ++u)
-        flanks[flank](v, u) =
-            mean[static_cast<Eigen::Index>(flank) * kGridSide * kGridSide + v * kGridSide + u];
-  return flanks;
-}
-
-/// True where a name is the same all along one direction of the flanks, the forms change it there
-/// by more than half of itself, and it stands as it is on less than half of the way.
-bool is_mean_across(const std::array<MeanOfFlank, 2>& name,
-                    const std::array<MeanOfFlank, 2>& forms) {
-  constexpr double kAlike = 1e-6, kLevel = 0.75, kChanges = 0.5, kStands = 0.25;
-  double square = 0.0, level = 0.0;
-  for (const MeanOfFlank& flank : name) {
-    square += flank.squaredNorm();
-    level += flank.mean() * flank.mean() * kGridSide * kGridSide;
-  }
-  if (!(square > 0.0)) return false;
-  for (const bool face : {true, false}) {
-    Eigen::Matrix<double, 2 * kGridSide, 1> course;
-    Eigen::Matrix<double, 2 * kGridSide, kGridSide> changed;
-    double off = 0.0;
-    for (const int flank : {0, 1}) {
-      const auto at = static_cast<std::size_t>(flank);
-      const MeanOfFlank own = face ? MeanOfFlank(name[at].transpose()) : name[at],
-                        others = face ? MeanOfFlank(forms[at].transpose()) : forms[at];
-      const Eigen::Matrix<double, kGridSide, 1> mean = own.rowwise().mean();
-      off += (own.colwise() - mean).squaredNorm();
-      course.segment<kGridSide>(flank * kGridSide) = mean;
-      if (level < kLevel * square)  // of what leans or bends its height says nothing
-        course.segment<kGridSide>(flank * kGridSide).array() -= mean.mean();
-      changed.middleRows<kGridSide>(flank * kGridSide) = others;
-    }
-    if (off > kAlike * square || !(course.squaredNorm() > kAlike * square)) continue;
-    const Eigen::Matrix<double, kGridSide, 1> share =
-        changed.transpose() * course / course.squaredNorm();
-    if (share.maxCoeff() - share.minCoeff() < kChanges) continue;
-    if (2 * (share.array().abs() < kStands).count() < kGridSide) return true;
-  }
-  return false;
 }
 
 }  // namespace

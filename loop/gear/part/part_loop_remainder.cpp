@@ -277,7 +277,7 @@ bool PartLoop::take_up_again(const std::vector<Effect>& before) {
   for (const Effect& name : before) {
     const auto at = std::find(candidates_.begin(), candidates_.end(), name);
     if (!name.family->named || !name.family->displacement_mm || name.columns() != 2 ||
-        !name.shape.empty() || at == candidates_.end() ||
+        name.family->shape_is_continuous || at == candidates_.end() ||
         banned_[static_cast<std::size_t>(at - candidates_.begin())] ||
         std::find(effects_.begin(), effects_.end(), name) != effects_.end() ||
         !is_told_apart(name, effects_))

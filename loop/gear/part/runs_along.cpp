@@ -131,4 +131,13 @@ bool run_alike(const FlankGeometry& geometry, const Effect& a, const Effect& b) 
   return std::abs(of_a.dot(of_b)) > kAlike * of_a.norm() * of_b.norm();
 }
 
+bool is_longer_than_the_flank(const FlankGeometry& geometry, const Effect& form, bool face) {
+  constexpr double kMostOfIt = 0.5, kLongest = 1.5;
+  const double range_mm =
+      face ? geometry.face_width_mm()
+           : std::abs(geometry.tip_form_roll_mm() - geometry.root_form_roll_mm());
+  return (form.family == find_family("unnamed_band") && form.shape[2] > kMostOfIt * range_mm) ||
+         (form.family == find_family("unnamed_waviness") && form.shape[1] > kLongest * range_mm);
+}
+
 }  // namespace trueflank::loop

@@ -41,4 +41,8 @@ enum class Flanks { kAlike, kOfEither };
 [[nodiscard]] bool is_in_the_span(const Eigen::VectorXd& of, const Eigen::VectorXd& a,
                                   const Eigen::VectorXd& b);
 
+/// True of what is so wide or long that the flank is a small part of it: a bow, told another way.
+[[nodiscard]] bool is_longer_than_the_flank(const FlankGeometry& geometry, const Effect& form,
+                                            bool face);
+
 }  // namespace trueflank::loop

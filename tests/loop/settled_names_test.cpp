@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "tests/loop/made_gears.h"
+
+// Names that an answer shows as it is in the end, though the forms beside them took them on the
+// way; and names that a doubted one took with it.
+namespace trueflank::test {
+namespace {
+
+constexpr double kTwoPi = 2.0 * M_PI;
+
+void expect_size(const loop::LoopResult& result, const std::string& name, const std::string& what,
+                 double size, double most_off) {
+  ASSERT_NE(find(result, name), nullptr) << list(result);
+  EXPECT_NEAR(parameter(*find(result, name), what).value, size, most_off) << list(result);
+}
+
+/// How far along the profile a spot lies: 0 at the root, 1 at the tip.
+double share_of(const FlankSpot& s) { return 0.5 * (s.u + 1.0); }
+
+// The direction of the dirt is twice per turn in parts: an oval section that is doubted by these.
+TEST(DoubtedNames, TakeNoOthersWithThem) {
+  constexpr double kTowards = 5.52;
+  const MadeGear gear = helical(59, -20.0);
+  const auto dirt = [=](const MadeGear& g, const FlankSpot& s, const Vec3&) {
+    const Vec3 n = normal_at(g, s);
+    const double facing = n[0] * std::cos(kTowards) + n[1] * std::sin(kTowards);
+    return (facing > 0.0 ? 5.0 * facing * facing : 0.0) - 3.5 * s.u + 7.0 * (1.0 - s.u * s.u);
+  };
+  const auto result = close(gear, scan_of(gear, {grown(dirt)}, scanned(9000, 1.1, 3)), true);
+  expect_size(result, "pressure_angle_error", "slope_um", -7.0, 0.4);
+  expect_size(result, "profile_crowning", "amount_um", 7.0, 0.4);
+}
+
+// Every other tooth leans the other way: that has no mean, and a relief is no part of it.
+TEST(SettledNames, AReliefBesideTeethThatLeanInTurn) {
+  const MadeGear gear = spur(32);
+  const auto made = [](auto&, const FlankSpot& s, auto&) {
+    return (s.tooth % 2 == 1 ? 12.0 : -12.0) * s.u -
+           12.0 * std::pow(std::max(share_of(s) - 0.5, 0.0) / 0.5, 2);
+  };
+  InspectionOptions options;
+  options.helix = options.index = false;
+  options.noise_um = 1.5;
+  options.seed = 2;
+  const auto result = close(gear, inspection_of(gear, {grown(made)}, options));
+  expect_size(result, "tip_relief", "amount_um", 12.0, 0.6);
+}
+
+// A step of one tooth hides a taper and a crowning at first: they came to a bow from a place on,
+// or to a part of a long wave.
+TEST(SettledNames, ATaperAndACrowningInsteadOfABendOrALongWave) {
+  const MadeGear gear = spur(20);
+  const auto made = [](auto&, const FlankSpot& s, auto&) {
+    return 4.3 * s.v + 6.8 * (1.0 - s.v * s.v);
+  };
+  const auto slipped = [](auto&, const FlankSpot& s, auto&) {
+    return s.tooth == 6 && s.side > 0 && s.u > 0.1 ? 14.0 : 0.0;
+  };
+  const std::vector<int> four{1, 6, 11, 16}, three{1, 6, 14};
+  for (const auto& [teeth, seed] : {std::pair{four, 3U}, std::pair{three, 1U}}) {
+    const auto result =
+        close(gear, inspection_of(gear, {grown(made), grown(slipped)}, traced(teeth, 0.9, seed)));
+    expect_size(result, "taper", "slope_um", 8.6, 0.3);
+    expect_size(result, "crowning", "amount_um", 6.8, 0.3);
+  }
+}
+
+// A thickness that all flanks have stays beside waves of one of them.
+TEST(SettledNames, AThicknessBesideFormsOfOneFlank) {
+  const MadeGear gear = spur(26);
+  const auto made = [](auto&, const FlankSpot& s, auto&) {
+    return -12.0 + (s.side > 0 ? 27.0 * std::cos(13.0 * s.u) : 34.0 * s.u);
+  };
+  const auto result = close(gear, scan_of(gear, {grown(made)}, scanned(9000, 4.0, 7)), true);
+  expect_size(result, "contour_offset", "offset_um", -12.0, 0.5);
+}
+
+// A drift of one flank leaves a wave of the pitch to the other.  (Along the normal it is 0.94 of
+// its size.)
+TEST(SettledNames, AWaveOfThePitchBesideADriftOfOneFlank) {
+  const MadeGear gear = spur(41);
+  InspectionOptions options;
+  options.profile = options.helix = false;
+  options.noise_um = 0.6;
+  options.seed = 4;
+  const auto made = [](const MadeGear& g, const FlankSpot& s, auto&) {
+    const double gone = (s.tooth - 1.0) / g.teeth;
+    return s.side * 4.0 * std::cos(2.0 * kTwoPi * gone - 1.5) +
+           (s.side > 0 ? 30.0 * (1.0 - std::exp(-2.0 * gone)) : 0.0);
+  };
+  const auto result = close(gear, inspection_of(gear, {grown(made)}, options));
+  expect_size(result, "pitch_wave", "amplitude_um", 4.26, 0.3);
+}
+
+// What leans above a height alone, or hollows that fade over the face, give no name to their
+// pieces.
+TEST(SettledNames, AreNoneOfProducts) {
+  const MadeGear gear = spur(30);
+  const auto leaning = [](auto&, const FlankSpot& s, auto&) {
+    return s.v > 0.1 ? 15.0 * s.u : 0.0;
+  };
+  const auto fading = [](auto&, const FlankSpot& s, auto&) {
+    return -14.0 * (1.0 + s.v) * std::exp(-std::pow((s.u + 0.1) / 0.32, 2));
+  };
+  for (const auto& um : {grown(leaning), grown(fading)}) {
+    const auto result = close(gear, scan_of(gear, {um}, scanned(6000, 2.0, 6)), true);
+    EXPECT_FALSE(has_name(result)) << list(result);
+  }
+}
+
+}  // namespace
+}  // namespace trueflank::test
