@@ -77,11 +77,11 @@ double distance_mm(const ToothProfile& profile, Point2 p) {
 }
 
 TEST(SectionContour, VerticesLieOnTheTrueCurveAndArcsMuchNearerThanTheTolerance) {
-  constexpr double kTolerance_mm = 1e-3;
+  constexpr double kContour_mm = 1e-3;
   for (const auto& sample : test::sample_gears()) {
     const auto profile = ToothProfile::make(sample.gear);
     ASSERT_TRUE(profile) << sample.name;
-    const Contour contour = contour_of(ToothedOutline{&*profile, 0.0}, kTolerance_mm);
+    const Contour contour = contour_of(ToothedOutline{&*profile, 0.0}, kContour_mm);
     const std::size_t per_tooth = contour.vertices.size() / sample.gear.teeth;
     ASSERT_EQ(per_tooth * sample.gear.teeth, contour.vertices.size());
     double vertex_mm = 0.0, arc_mm = 0.0;
@@ -91,7 +91,7 @@ TEST(SectionContour, VerticesLieOnTheTrueCurveAndArcsMuchNearerThanTheTolerance)
     for (std::size_t i = 0; i + 3 < 3 * per_tooth; ++i)
       arc_mm = std::max(arc_mm, distance_mm(*profile, arcs[i]));
     EXPECT_LT(vertex_mm, 1e-7) << sample.name;
-    EXPECT_LT(arc_mm, 0.2 * kTolerance_mm) << sample.name;
+    EXPECT_LT(arc_mm, 0.2 * kContour_mm) << sample.name;
   }
 }
 

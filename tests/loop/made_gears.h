@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 
 #include "tests/loop/measured_process.h"
@@ -126,6 +128,13 @@ inline bool tells_spot(const loop::LoopResult& result) {
 /// True where the answer has these words.
 inline bool tells_of(const loop::LoopResult& result, const std::string& words) {
   return list(result).find(words) != std::string::npos;
+}
+
+/// A named effect is there, with a parameter of about this size.
+inline void expect_size(const loop::LoopResult& result, const std::string& name,
+                        const std::string& what, double size, double most_off) {
+  ASSERT_NE(find(result, name), nullptr) << list(result);
+  EXPECT_NEAR(parameter(*find(result, name), what).value, size, most_off) << list(result);
 }
 
 }  // namespace trueflank::test

@@ -15,12 +15,6 @@ bool tells_of(const loop::LoopResult& result, const std::string& words) {
   return list(result).find(words) != std::string::npos;
 }
 
-void expect_size(const loop::LoopResult& result, const std::string& name, const std::string& what,
-                 double size, double most_off) {
-  ASSERT_NE(find(result, name), nullptr) << list(result);
-  EXPECT_NEAR(parameter(*find(result, name), what).value, size, most_off) << list(result);
-}
-
 TEST(OppositeForms, LeaveAHelixErrorItsName) {
   const auto leaning_s = [](auto&, const FlankSpot& s, auto&) {
     return s.side * (7.5 * s.v - 20.0 * (s.v * s.v * s.v - 0.6 * s.v));

@@ -12,14 +12,6 @@
 namespace trueflank::test {
 namespace {
 
-constexpr double kTwoPi = 2.0 * M_PI;
-
-void expect_size(const loop::LoopResult& result, const std::string& name, const std::string& what,
-                 double size, double most_off) {
-  ASSERT_NE(find(result, name), nullptr) << list(result);
-  EXPECT_NEAR(parameter(*find(result, name), what).value, size, most_off) << list(result);
-}
-
 /// How far along the profile a spot lies: 0 at the root, 1 at the tip.
 double share_of(const FlankSpot& s) { return 0.5 * (s.u + 1.0); }
 
@@ -91,7 +83,7 @@ TEST(SettledNames, AWaveOfThePitchBesideADriftOfOneFlank) {
   options.seed = 4;
   const auto made = [](const MadeGear& g, const FlankSpot& s, auto&) {
     const double gone = (s.tooth - 1.0) / g.teeth;
-    return s.side * 4.0 * std::cos(2.0 * kTwoPi * gone - 1.5) +
+    return s.side * 4.0 * std::cos(2.0 * 2.0 * M_PI * gone - 1.5) +
            (s.side > 0 ? 30.0 * (1.0 - std::exp(-2.0 * gone)) : 0.0);
   };
   const auto result = close(gear, inspection_of(gear, {grown(made)}, options));

@@ -12,52 +12,15 @@
 #include "trueflank/base/units.h"
 #include "trueflank/loop/gear/effects/flank_course.h"
 #include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/local/product_cells.h"
 
 namespace trueflank::loop {
-namespace {
 
 using gear_effects::AroundCourse;
 using gear_effects::FlankCourse;
+using namespace product_cells;
 
-constexpr int kProductCells = 32;
-
-/// Sums of weights and of weighted residuals.
-struct Sum {
-  double weight = 0.0, value = 0.0;
-  void operator+=(const Sum& other) {
-    weight += other.weight;
-    value += other.value;
-  }
-};
-using Along = std::array<Sum, kProductCells>;
-using OverFlank = std::array<Along, kProductCells>;  ///< [profile][face]
-
-/// What is measured of the flank of a tooth.
-struct OfFlank {
-  Along profile{}, face{};
-  OverFlank both{};     ///< of scans
-  double square = 0.0;  ///< of the residuals
-};
-
-/// A course with its values in the middles of the cells.
-struct CourseInCells {
-  FlankCourse course;
-  std::array<double, kProductCells> values{};
-};
-
-std::vector<CourseInCells> in_cells(const FlankGeometry& g, double face) {
-  const double low = face != 0.0 ? 0.0 : g.root_form_roll_mm(),
-               high = face != 0.0 ? g.face_width_mm() : g.tip_form_roll_mm();
-  std::vector<CourseInCells> courses;
-  for (const FlankCourse& course : gear_effects::courses_over(g, face)) {
-    CourseInCells one{course};
-    for (int i = 0; i < kProductCells; ++i)
-      one.values[static_cast<std::size_t>(i)] =
-          course.value(g, face, low + (i + 0.5) / kProductCells * (high - low));
-    courses.push_back(one);
-  }
-  return courses;
-}
+namespace {
 
 /// What a form takes out: the square of its product with the residuals over its own square.
 struct Projection {
@@ -79,27 +42,6 @@ Projection projected(const Along& sums, const std::array<double, kProductCells>&
   return {product - value * first / weight, square - first * first / weight};
 }
 
-/// Both flanks alike, both in opposite directions, or one of them.
-struct FlankWay {
-  FlankChoice flank;
-  bool opposite;
-  std::array<double, 2> signs;  ///< of the clockwise side and the other
-};
-std::array<FlankWay, 4> flank_ways(const FlankGeometry& g) {
-  const bool left_first = flank_side(Flank::kLeft, g.gear().kind) < 0;
-  const double first = left_first ? 1.0 : 0.0;
-  return {{{FlankChoice::kBoth, false, {1.0, 1.0}},
-           {FlankChoice::kBoth, true, {-1.0, 1.0}},
-           {FlankChoice::kLeft, false, {first, 1.0 - first}},
-           {FlankChoice::kRight, false, {1.0 - first, first}}}};
-}
-
-/// A form and what it takes out.
-struct Likely {
-  double gain = 0.0;
-  Effect form;
-};
-
 /// Ways around the gear that lead to each other where one of them is moved.
 int way_around(const Effect& form) {
   constexpr std::size_t kAround = 2 * FlankCourse::kValues + 1;
@@ -107,8 +49,6 @@ int way_around(const Effect& form) {
   const AroundCourse around = AroundCourse::at(form.shape, kAround);
   return around.kind == AroundCourse::kBell ? AroundCourse::kHalf : around.kind;
 }
-
-constexpr double kNearly = 0.5;  // of what the best takes out: in its place it may be the best
 
 /// The likeliest kinds of courses on the likeliest flanks, a list each, of each way around: the
 /// best of each kind.
@@ -152,35 +92,6 @@ double gain_of(const Projection& p) {
   return p.square > 0.0 ? p.product * p.product / p.square : 0.0;
 }
 
-/// How forms may go from tooth to tooth: a row each, of every tooth.
-struct Arounds {
-  std::vector<AroundCourse> courses;
-  Eigen::MatrixXd on_teeth, squares;
-  Eigen::ArrayXd beside_free_form;  ///< 0 of a mean and waves, 1 of others
-};
-Arounds arounds_of(const FlankGeometry& g) {
-  constexpr int kFewest = 24, kMost = 96;
-  const int directions = std::clamp(g.teeth(), kFewest, kMost);
-  Arounds all;
-  for (AroundCourse course : gear_effects::courses_around(g)) {
-    const double period_deg = course.kind == AroundCourse::kWave ? course.half_deg : 360.0;
-    for (int d = 0; d < directions && d * 360.0 / directions < period_deg; ++d) {
-      course.towards_deg = d * 360.0 / directions;
-      all.courses.push_back(course);
-    }
-  }
-  all.on_teeth.resize(std::ssize(all.courses), g.teeth());
-  for (Eigen::Index i = 0; i < all.on_teeth.rows(); ++i)
-    for (int tooth = 1; tooth <= g.teeth(); ++tooth)
-      all.on_teeth(i, tooth - 1) = all.courses[static_cast<std::size_t>(i)].value(g, tooth);
-  all.squares = all.on_teeth.cwiseAbs2();
-  all.beside_free_form.resize(all.on_teeth.rows());
-  for (Eigen::Index i = 0; i < all.on_teeth.rows(); ++i)
-    all.beside_free_form[i] =
-        all.courses[static_cast<std::size_t>(i)].is_of_free_form() ? 0.0 : 1.0;
-  return all;
-}
-
 /// The best way around for a form of which every tooth's projection is known: as the residuals are,
 /// or beside names that take up what is alike on all teeth.
 Likely best_around(const FlankGeometry& g, const Arounds& arounds,
@@ -211,34 +122,6 @@ Likely best_around(const FlankGeometry& g, const Arounds& arounds,
   shape.resize(own + AroundCourse::kValues);
   arounds.courses[static_cast<std::size_t>(best)].put_in(shape, own);
   return {gain, {find_family("unnamed_crossed_around"), flank, std::move(shape)}};
-}
-
-using OfTeeth = std::vector<std::array<OfFlank, 2>>;
-
-OfTeeth sums_of(const FlankGeometry& g, const Observations& table, const Patches& patches,
-                const std::vector<float>& row_um) {
-  OfTeeth teeth(static_cast<std::size_t>(g.teeth()));
-  const auto cell = [](double coordinate) {
-    return static_cast<std::size_t>(part_of(coordinate, kProductCells));
-  };
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    const Observation& row = table.rows[i];
-    const bool scan = row.kind == ObservationKind::kScanFlank;
-    if ((!scan && row.kind != ObservationKind::kProfile && row.kind != ObservationKind::kHelix) ||
-        row.places != 1 || patches.patch_of_row[i] < 0 || !std::isfinite(row_um[i]))
-      continue;
-    const Place& place = table.place(row);
-    if (place.surface != Surface::kFlank) continue;
-    OfFlank& flank = teeth[static_cast<std::size_t>(place.tooth - 1)][place.side > 0 ? 1 : 0];
-    const std::size_t u = cell(g.profile_coordinate(place.roll_mm)),
-                      v = cell(g.face_coordinate(place.z_mm));
-    const Sum one{1.0, row_um[i]};
-    flank.square += one.value * one.value;
-    if (row.kind != ObservationKind::kHelix) flank.profile[u] += one;
-    if (row.kind != ObservationKind::kProfile) flank.face[v] += one;
-    if (scan) flank.both[u][v] += one;
-  }
-  return teeth;
 }
 
 /// Over profile and face, of every few teeth that follow each other.
@@ -409,103 +292,6 @@ std::vector<Pair> best_pairs(std::vector<Pair> pairs, const std::vector<CourseIn
   return best;
 }
 
-/// Waves along one direction in the cells: products with cosine and sine.
-struct WaveSum {
-  double c = 0.0, s = 0.0, weight = 0.0;
-  void add(const Sum& sum, const std::array<double, 2>& unit) {
-    c += sum.value * unit[0];
-    s += sum.value * unit[1];
-    weight += sum.weight;
-  }
-};
-/// (half of the square of a wave is what its cosine has)
-double gain_of(double c, double s, double weight) {
-  return weight > 0.0 ? 2.0 * (c * c + s * s) / weight : 0.0;
-}
-
-/// Waves over profile (0) or face (1) of the flanks of a way, both alike or one: those whose size
-/// follows a course in the other direction, alike on every tooth, and those that go around the
-/// gear.
-struct LikelyWaves {
-  std::vector<Likely> across, around;
-};
-LikelyWaves likely_waves(const FlankGeometry& g, const OfTeeth& teeth, const FlankWay& way,
-                         int face, const std::vector<CourseInCells>& across,
-                         const Arounds& arounds) {
-  constexpr double kFewest = 1.5, kMost = 14.0,
-                   kStep = 0.25;  // waves: a cell is half of one at most
-  const double range_mm =
-      face != 0 ? g.face_width_mm() : std::abs(g.tip_form_roll_mm() - g.root_form_roll_mm());
-  LikelyWaves likely;
-  for (double waves = kFewest; waves <= kMost; waves += kStep) {
-    const auto form = [&](const FlankCourse& course, const AroundCourse& where) {
-      EffectShape shape(2 + FlankCourse::kValues + AroundCourse::kValues);
-      shape[0] = face;
-      shape[1] = range_mm / waves;
-      course.put_in(shape, 2);
-      where.put_in(shape, 2 + FlankCourse::kValues);
-      return Effect{find_family("unnamed_crossed_waves"), way.flank, std::move(shape)};
-    };
-    std::vector<WaveSum> of_teeth(teeth.size());
-    std::array<WaveSum, kProductCells> over{};  // the other direction, of all teeth
-    for (std::size_t i = 0; i < kProductCells; ++i) {
-      const double angle = kTwoPi * waves * (static_cast<double>(i) + 0.5) / kProductCells;
-      const std::array unit{std::cos(angle), std::sin(angle)};
-      for (std::size_t t = 0; t < teeth.size(); ++t)
-        for (const std::size_t side : {0U, 1U}) {
-          if (way.signs[side] == 0.0) continue;
-          const OfFlank& flank = teeth[t][side];
-          of_teeth[t].add(face == 0 ? flank.profile[i] : flank.face[i], unit);
-          for (std::size_t k = 0; k < kProductCells; ++k)
-            over[k].add(face == 0 ? flank.both[i][k] : flank.both[k][i], unit);
-        }
-    }
-    for (const CourseInCells& course : across) {
-      if (course.course.kind == FlankCourse::kSlope) continue;
-      double c = 0.0, s = 0.0, weight = 0.0;
-      for (std::size_t k = 0; k < kProductCells; ++k) {
-        c += course.values[k] * over[k].c;
-        s += course.values[k] * over[k].s;
-        weight += course.values[k] * course.values[k] * over[k].weight;
-      }
-      likely.across.push_back({gain_of(c, s, weight), form(course.course, {AroundCourse::kEvery})});
-    }
-    for (std::size_t a = 0; a < arounds.courses.size(); ++a) {
-      double c = 0.0, s = 0.0, weight = 0.0;
-      for (std::size_t t = 0; t < teeth.size(); ++t) {
-        const double on =
-            arounds.on_teeth(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(t));
-        c += on * of_teeth[t].c;
-        s += on * of_teeth[t].s;
-        weight += on * on * of_teeth[t].weight;
-      }
-      likely.around.push_back({gain_of(c, s, weight), form({}, arounds.courses[a])});
-    }
-  }
-  return likely;
-}
-
-/// The best of these, each kind of course a list.
-void add_lists(std::vector<Likely> all, std::vector<LikelyForms>& lists) {
-  constexpr std::size_t kKinds = 3, kFew = 3, kAcross = 2, kAround = kAcross + FlankCourse::kValues;
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Likely& a, const Likely& b) { return a.gain > b.gain; });
-  std::vector<LikelyForms> own;
-  for (Likely& one : all) {
-    if (!(one.gain > 0.0) || one.gain < kNearly * all.front().gain) break;
-    const auto list = std::find_if(own.begin(), own.end(), [&](const LikelyForms& other) {
-      const EffectShape& shape = other.forms.front().shape;
-      return shape[kAcross] == one.form.shape[kAcross] && shape[kAround] == one.form.shape[kAround];
-    });
-    if (list == own.end()) {
-      if (own.size() < kKinds) own.push_back({one.gain, {one.form}});
-    } else if (list->forms.size() < kFew) {
-      list->forms.push_back(one.form);
-    }
-  }
-  std::move(own.begin(), own.end(), std::back_inserter(lists));
-}
-
 }  // namespace
 
 LikeliestProducts likeliest_products(const FlankGeometry& g, const Observations& table,
@@ -587,13 +373,7 @@ LikeliestProducts likeliest_products(const FlankGeometry& g, const Observations&
   likeliest.same_on_every_tooth = best_of(std::move(same), kKinds);
   likeliest.beside_names = best_of(std::move(beside), kKinds);
   likeliest.around_the_gear = best_of(std::move(around), kKindsOfAWay);
-  for (const FlankWay& way : ways)
-    for (const int face : {0, 1}) {
-      if (way.opposite) continue;
-      LikelyWaves waves = likely_waves(g, teeth, way, face, face == 0 ? faces : profiles, arounds);
-      if (scan) add_lists(std::move(waves.across), likeliest.waves);
-      add_lists(std::move(waves.around), likeliest.waves);
-    }
+  likeliest.waves = likeliest_waves(g, teeth, profiles, faces, arounds, scan);
   for (const auto& tooth : teeth)
     for (const OfFlank& flank : tooth) likeliest.square += flank.square;
   likeliest.square_beside_names += likeliest.square;
