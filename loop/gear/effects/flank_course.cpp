@@ -13,8 +13,8 @@ namespace {
 
 // Shares of the profile or the face: a course that begins or ends nearer to an end, or is narrower,
 // is none of its kind.
-constexpr double kNearestEnd = 0.04, kNarrowest = 0.03, kWidest = 0.4, kShortest = 0.02,
-                 kLongest = 0.6, kLongestOfBoth = 0.2;
+constexpr double kNearestEnd = 0.04, kNearestStep = 0.08, kNarrowest = 0.03, kWidest = 0.4,
+                 kShortest = 0.02, kLongest = 0.6, kLongestOfBoth = 0.2;
 
 double share_of(const FlankGeometry& g, double face, double place_mm) {
   const double low = end_mm(g, face, -1.0), high = end_mm(g, face, 1.0);
@@ -107,30 +107,33 @@ int FlankCourse::values_sought() const {
   }
 }
 
+namespace {
+
+/// False of what begins or ends so near to an end, or is so narrow or long, that it is another
+/// form.
+bool is_of_its_kind(const FlankGeometry& g, double face, const FlankCourse& course) {
+  constexpr double kRounding = 1e-9;
+  const double range = std::abs(range_mm(g, face));
+  const auto between = [](double value, double least, double most) {
+    return value >= least - kRounding && value <= most + kRounding;
+  };
+  if (course.kind == FlankCourse::kRise)
+    return between(course.mm / range, kShortest, course.towards != 0.0 ? kLongest : kLongestOfBoth);
+  const double share = share_of(g, face, course.mm);
+  if (course.kind == FlankCourse::kStep) return between(share, kNearestStep, 1.0 - kNearestStep);
+  if (course.kind == FlankCourse::kBand)
+    return between(share, 0.0, 1.0) && between(course.half_mm / range, kNarrowest, kWidest);
+  return course.towards > 0.0 ? between(share, 0.0, 1.0 - kNearestEnd)
+                              : between(share, kNearestEnd, 1.0);
+}
+
+}  // namespace
+
 std::vector<FlankCourse> FlankCourse::beside(const FlankGeometry& g, double face) const {
   const double range = std::abs(range_mm(g, face));
   std::vector<FlankCourse> courses;
-  const auto add = [&](FlankCourse course) {
-    const Kind own = course.kind;
-    if (own == kRise) {
-      const double longest = course.towards != 0.0 ? kLongest : kLongestOfBoth;
-      if (course.mm < kShortest * range || course.mm > longest * range) return;
-    } else {
-      const double share = share_of(g, face, course.mm);
-      const double from = own == kBand           ? 0.0
-                          : course.towards > 0.0 ? 0.0
-                                                 : kNearestEnd,
-                   to = own == kBand           ? 1.0
-                        : course.towards > 0.0 ? 1.0 - kNearestEnd
-                                               : 1.0;
-      const bool step = own == kStep;
-      if (share < (step ? kNearestEnd : from) - 1e-9 ||
-          share > (step ? 1.0 - kNearestEnd : to) + 1e-9)
-        return;
-      if (own == kBand && (course.half_mm < kNarrowest * range || course.half_mm > kWidest * range))
-        return;
-    }
-    courses.push_back(course);
+  const auto add = [&](const FlankCourse& course) {
+    if (is_of_its_kind(g, face, course)) courses.push_back(course);
   };
   const Kind own = kind;
   if (own == kWhole || own == kSlope || own == kBow) return courses;

@@ -322,17 +322,29 @@ LikeliestProducts likeliest_products(const FlankGeometry& g, const Observations&
                  [&](const OfFlank& flank) { return projected(flank.face, course.values, !scan); });
   }
   if (scan) {
-    const std::vector<Pair> pairs = pairs_of(teeth, profiles, faces, ways);
+    // Beside courses in one direction alone.
+    CourseInCells everywhere;
+    everywhere.values = whole;
+    std::vector<CourseInCells> crossed_profiles = profiles, crossed_faces = faces;
+    crossed_profiles.push_back(everywhere);
+    crossed_faces.push_back(everywhere);
+    const auto is_crossed = [&](const Pair& pair) {
+      return pair.profile < profiles.size() && pair.face < faces.size();
+    };
     const auto likeliest_of = [&](const std::vector<Pair>& of) {
-      double most = 0.0;
-      for (const Pair& pair : of) most = std::max(most, pair.alike);
+      constexpr double kMore = 1.05;
+      double most = 0.0, most_of_one = 0.0;
+      for (const Pair& pair : of)
+        (is_crossed(pair) ? most : most_of_one) =
+            std::max(is_crossed(pair) ? most : most_of_one, pair.alike);
+      const double least = std::max(kNearly * most, kMore * most_of_one);
       std::vector<Likely> forms;
       // (a band times a band is a dish)
       const auto is_band = [](const CourseInCells& course) {
         return course.course.kind == FlankCourse::kBand;
       };
       for (const Pair& pair : of)
-        if (pair.alike > kNearly * most &&
+        if (is_crossed(pair) && pair.alike > least &&
             !(is_band(profiles[pair.profile]) && is_band(faces[pair.face])))
           forms.push_back(
               {pair.alike,
@@ -340,6 +352,7 @@ LikeliestProducts likeliest_products(const FlankGeometry& g, const Observations&
                 shape_of(profiles[pair.profile].course, faces[pair.face].course, ways[pair.way])}});
       return forms;
     };
+    std::vector<Pair> pairs = pairs_of(teeth, crossed_profiles, crossed_faces, ways);
     same = likeliest_of(pairs);
     std::array<OverFlank, 2> mean{};
     for (const auto& group : in_groups(teeth))
@@ -347,8 +360,9 @@ LikeliestProducts likeliest_products(const FlankGeometry& g, const Observations&
         for (std::size_t u = 0; u < kProductCells; ++u)
           for (std::size_t v = 0; v < kProductCells; ++v) mean[side][u][v] += group[side][u][v];
     const std::array names{BesideNames(mean[0]), BesideNames(mean[1])};
-    beside = likeliest_of(pairs_beside_names(mean, names, profiles, faces, ways));
+    beside = likeliest_of(pairs_beside_names(mean, names, crossed_profiles, crossed_faces, ways));
     likeliest.square_beside_names = -names[0].square() - names[1].square();
+    std::erase_if(pairs, [&](const Pair& pair) { return !is_crossed(pair); });
     for (const Pair& pair : best_pairs(pairs, profiles, faces))
       add_around(profiles[pair.profile].course, faces[pair.face].course, ways[pair.way],
                  [&](const OfFlank& flank) {
