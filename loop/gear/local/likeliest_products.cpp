@@ -196,7 +196,7 @@ std::vector<Pair> pairs_of(const OfTeeth& teeth, const std::vector<CourseInCells
 }
 
 /// Levels, slopes and bows over profile and face, as names have them: of the flanks of one side.
-struct BesideNames {
+struct SumsOfNames {
   static constexpr int kCourses = 5;
   using Vector = Eigen::Matrix<double, kCourses, 1>;
   Eigen::LDLT<Eigen::Matrix<double, kCourses, kCourses>> solver;
@@ -209,7 +209,7 @@ struct BesideNames {
     const double x = coordinate(u), y = coordinate(v);
     return Vector(1.0, x, x * x, y, y * y);
   }
-  explicit BesideNames(const OverFlank& sums) {
+  explicit SumsOfNames(const OverFlank& sums) {
     Eigen::Matrix<double, kCourses, kCourses> normal =
         1e-9 * Eigen::Matrix<double, kCourses, kCourses>::Identity();
     for (std::size_t u = 0; u < kProductCells; ++u)
@@ -231,7 +231,7 @@ struct BesideNames {
 
 /// Pairs of courses as they are the same on every tooth, beside names.
 std::vector<Pair> pairs_beside_names(const std::array<OverFlank, 2>& mean,
-                                     const std::array<BesideNames, 2>& names,
+                                     const std::array<SumsOfNames, 2>& names,
                                      const std::vector<CourseInCells>& profiles,
                                      const std::vector<CourseInCells>& faces,
                                      const std::array<FlankWay, 4>& ways) {
@@ -244,7 +244,7 @@ std::vector<Pair> pairs_beside_names(const std::array<OverFlank, 2>& mean,
     for (const std::size_t side : {0U, 1U}) {
       over_profile[side] = summed(mean[side], profiles[p].values);
       for (std::size_t u = 0; u < kProductCells; ++u) {
-        const double at = profiles[p].values[u], x = BesideNames::coordinate(u);
+        const double at = profiles[p].values[u], x = SumsOfNames::coordinate(u);
         if (at == 0.0) continue;
         for (std::size_t v = 0; v < kProductCells; ++v) {
           const double weight = at * mean[side][u][v].weight;
@@ -257,10 +257,10 @@ std::vector<Pair> pairs_beside_names(const std::array<OverFlank, 2>& mean,
     for (std::size_t f = 0; f < faces.size(); ++f) {
       std::array<Projection, 2> sides;
       for (const std::size_t side : {0U, 1U}) {
-        BesideNames::Vector products = BesideNames::Vector::Zero();
+        SumsOfNames::Vector products = SumsOfNames::Vector::Zero();
         for (std::size_t v = 0; v < kProductCells; ++v) {
-          const double at = faces[f].values[v], y = BesideNames::coordinate(v);
-          products += at * BesideNames::Vector(weights[side][0][v], weights[side][1][v],
+          const double at = faces[f].values[v], y = SumsOfNames::coordinate(v);
+          products += at * SumsOfNames::Vector(weights[side][0][v], weights[side][1][v],
                                                weights[side][2][v], weights[side][0][v] * y,
                                                weights[side][0][v] * y * y);
         }
@@ -279,6 +279,10 @@ std::vector<Pair> pairs_beside_names(const std::array<OverFlank, 2>& mean,
 std::vector<Pair> best_pairs(std::vector<Pair> pairs, const std::vector<CourseInCells>& profiles,
                              const std::vector<CourseInCells>& faces) {
   constexpr std::size_t kMost = 48, kOfAKind = 2;
+  std::erase_if(pairs, [&](const Pair& pair) {
+    return profiles[pair.profile].course.kind == FlankCourse::kWhole ||
+           faces[pair.face].course.kind == FlankCourse::kWhole;
+  });
   std::stable_sort(pairs.begin(), pairs.end(),
                    [](const Pair& a, const Pair& b) { return a.at_most > b.at_most; });
   std::map<std::array<std::size_t, 3>, std::size_t> of_a_kind;
@@ -292,106 +296,143 @@ std::vector<Pair> best_pairs(std::vector<Pair> pairs, const std::vector<CourseIn
   return best;
 }
 
+/// Pairs of which both run: the likeliest, as the same on every tooth. Where a course in one
+/// direction alone says nearly as much there is none; a band times a band is a dish.
+std::vector<Likely> likeliest_of(const std::vector<Pair>& pairs,
+                                 const std::vector<CourseInCells>& profiles,
+                                 const std::vector<CourseInCells>& faces,
+                                 const std::array<FlankWay, 4>& ways) {
+  constexpr double kMore = 1.05;
+  const auto is = [](const CourseInCells& course, FlankCourse::Kind kind) {
+    return course.course.kind == kind;
+  };
+  const auto is_crossed = [&](const Pair& pair) {
+    return !is(profiles[pair.profile], FlankCourse::kWhole) &&
+           !is(faces[pair.face], FlankCourse::kWhole);
+  };
+  double most = 0.0, most_of_one = 0.0;
+  for (const Pair& pair : pairs) {
+    double& of_these = is_crossed(pair) ? most : most_of_one;
+    of_these = std::max(of_these, pair.alike);
+  }
+  const double least = std::max(kNearly * most, kMore * most_of_one);
+  std::vector<Likely> forms;
+  for (const Pair& pair : pairs) {
+    const bool dish =
+        is(profiles[pair.profile], FlankCourse::kBand) && is(faces[pair.face], FlankCourse::kBand);
+    if (is_crossed(pair) && pair.alike > least && !dish)
+      forms.push_back(
+          {pair.alike,
+           {find_family("unnamed_crossed"), ways[pair.way].flank,
+            shape_of(profiles[pair.profile].course, faces[pair.face].course, ways[pair.way])}});
+  }
+  return forms;
+}
+
+constexpr std::size_t kKinds = 4, kKindsOfAWay = 2;
+
 }  // namespace
 
-LikeliestProducts likeliest_products(const FlankGeometry& g, const Observations& table,
-                                     const Patches& patches, const std::vector<float>& row_um) {
-  const bool scan = !table.points_mm.empty();
-  const OfTeeth teeth = sums_of(g, table, patches, row_um);
-  const std::vector<CourseInCells> profiles = in_cells(g, 0.0), faces = in_cells(g, 1.0);
+struct LikeliestProducts::Cells {
+  Cells(const FlankGeometry& g, const Observations& table, const Patches& patches,
+        const std::vector<float>& row_um)
+      : geometry(g),
+        scan(!table.points_mm.empty()),
+        teeth(sums_of(g, table, patches, row_um)),
+        profiles(in_cells(g, 0.0)),
+        faces(in_cells(g, 1.0)),
+        ways(flank_ways(g)) {
+    CourseInCells whole;
+    whole.values.fill(1.0);
+    profiles.push_back(whole);
+    faces.push_back(whole);
+  }
+
+  const FlankGeometry& geometry;
+  bool scan;
+  OfTeeth teeth;
+  std::vector<CourseInCells> profiles, faces;  ///< the last of each is whole
+  std::array<FlankWay, 4> ways;
+};
+
+LikeliestProducts::LikeliestProducts(const FlankGeometry& geometry, const Observations& table,
+                                     const Patches& patches, const std::vector<float>& row_um)
+    : cells_(std::make_shared<const Cells>(geometry, table, patches, row_um)) {}
+
+double LikeliestProducts::square() const {
+  double square = 0.0;
+  for (const auto& tooth : cells_->teeth)
+    for (const OfFlank& flank : tooth) square += flank.square;
+  return square;
+}
+
+std::vector<LikelyForms> LikeliestProducts::same_on_every_tooth() const {
+  const auto& [g, scan, teeth, profiles, faces, ways] = *cells_;
+  if (!scan) return {};
+  return best_of(likeliest_of(pairs_of(teeth, profiles, faces, ways), profiles, faces, ways),
+                 kKinds);
+}
+
+LikeliestProducts::BesideNames LikeliestProducts::beside_names() const {
+  const auto& [g, scan, teeth, profiles, faces, ways] = *cells_;
+  if (!scan) return {};
+  std::array<OverFlank, 2> mean{};
+  for (const auto& group : in_groups(teeth))
+    for (const std::size_t side : {0U, 1U})
+      for (std::size_t u = 0; u < kProductCells; ++u)
+        for (std::size_t v = 0; v < kProductCells; ++v) mean[side][u][v] += group[side][u][v];
+  const std::array names{SumsOfNames(mean[0]), SumsOfNames(mean[1])};
+  const std::vector<Pair> pairs = pairs_beside_names(mean, names, profiles, faces, ways);
+  return {best_of(likeliest_of(pairs, profiles, faces, ways), kKinds),
+          square() - names[0].square() - names[1].square()};
+}
+
+std::vector<LikelyForms> LikeliestProducts::around_the_gear() const {
+  const auto& [g, scan, teeth, profiles, faces, ways] = *cells_;
   const Arounds arounds = arounds_of(g);
-  const std::array<FlankWay, 4> ways = flank_ways(g);
-  LikeliestProducts likeliest;
-  std::vector<Likely> same, around, beside;
-  std::array<double, kProductCells> whole{};
-  whole.fill(1.0);
-  const auto add_around = [&](const FlankCourse& profile, const FlankCourse& face,
-                              const FlankWay& way, const auto& projection) {
+  const auto likely = [&](const FlankCourse& profile, const FlankCourse& face, const FlankWay& way,
+                          const auto& projection) {
     std::vector<Projection> of_teeth;
     for (const auto& tooth : teeth)
       of_teeth.push_back(together({projection(tooth[0]), projection(tooth[1])}, way));
-    around.push_back(best_around(g, arounds, of_teeth, way.flank, shape_of(profile, face, way)));
+    return best_around(g, arounds, of_teeth, way.flank, shape_of(profile, face, way));
   };
+  std::vector<Likely> forms;
+  double most_of_whole_flanks = 0.0;
   for (const FlankWay& way : ways) {
-    for (const CourseInCells& course : profiles)
-      add_around(course.course, {}, way, [&](const OfFlank& flank) {
+    for (const CourseInCells& course : profiles) {
+      const Likely one = likely(course.course, {}, way, [&](const OfFlank& flank) {
         return projected(flank.profile, course.values, !scan);
       });
+      if (course.course.kind == FlankCourse::kWhole)
+        most_of_whole_flanks = std::max(most_of_whole_flanks, one.gain);
+      else
+        forms.push_back(one);
+    }
     for (const CourseInCells& course : faces)
-      add_around({}, course.course, way,
-                 [&](const OfFlank& flank) { return projected(flank.face, course.values, !scan); });
+      if (course.course.kind != FlankCourse::kWhole)
+        forms.push_back(likely({}, course.course, way, [&](const OfFlank& flank) {
+          return projected(flank.face, course.values, !scan);
+        }));
   }
-  if (scan) {
-    // Beside courses in one direction alone.
-    CourseInCells everywhere;
-    everywhere.values = whole;
-    std::vector<CourseInCells> crossed_profiles = profiles, crossed_faces = faces;
-    crossed_profiles.push_back(everywhere);
-    crossed_faces.push_back(everywhere);
-    const auto is_crossed = [&](const Pair& pair) {
-      return pair.profile < profiles.size() && pair.face < faces.size();
-    };
-    const auto likeliest_of = [&](const std::vector<Pair>& of) {
-      constexpr double kMore = 1.05;
-      double most = 0.0, most_of_one = 0.0;
-      for (const Pair& pair : of)
-        (is_crossed(pair) ? most : most_of_one) =
-            std::max(is_crossed(pair) ? most : most_of_one, pair.alike);
-      const double least = std::max(kNearly * most, kMore * most_of_one);
-      std::vector<Likely> forms;
-      // (a band times a band is a dish)
-      const auto is_band = [](const CourseInCells& course) {
-        return course.course.kind == FlankCourse::kBand;
-      };
-      for (const Pair& pair : of)
-        if (is_crossed(pair) && pair.alike > least &&
-            !(is_band(profiles[pair.profile]) && is_band(faces[pair.face])))
-          forms.push_back(
-              {pair.alike,
-               {find_family("unnamed_crossed"), ways[pair.way].flank,
-                shape_of(profiles[pair.profile].course, faces[pair.face].course, ways[pair.way])}});
-      return forms;
-    };
-    std::vector<Pair> pairs = pairs_of(teeth, crossed_profiles, crossed_faces, ways);
-    same = likeliest_of(pairs);
-    std::array<OverFlank, 2> mean{};
-    for (const auto& group : in_groups(teeth))
-      for (const std::size_t side : {0U, 1U})
-        for (std::size_t u = 0; u < kProductCells; ++u)
-          for (std::size_t v = 0; v < kProductCells; ++v) mean[side][u][v] += group[side][u][v];
-    const std::array names{BesideNames(mean[0]), BesideNames(mean[1])};
-    beside = likeliest_of(pairs_beside_names(mean, names, crossed_profiles, crossed_faces, ways));
-    likeliest.square_beside_names = -names[0].square() - names[1].square();
-    std::erase_if(pairs, [&](const Pair& pair) { return !is_crossed(pair); });
-    for (const Pair& pair : best_pairs(pairs, profiles, faces))
-      add_around(profiles[pair.profile].course, faces[pair.face].course, ways[pair.way],
-                 [&](const OfFlank& flank) {
-                   return projected(summed(flank.both, profiles[pair.profile].values),
-                                    faces[pair.face].values, false);
-                 });
-  }
+  if (scan)
+    for (const Pair& pair : best_pairs(pairs_of(teeth, profiles, faces, ways), profiles, faces))
+      forms.push_back(likely(profiles[pair.profile].course, faces[pair.face].course, ways[pair.way],
+                             [&](const OfFlank& flank) {
+                               return projected(summed(flank.both, profiles[pair.profile].values),
+                                                faces[pair.face].values, false);
+                             }));
   // Where whole flanks that stand out on some teeth say nearly as much there is no course.
-  if (scan) {
-    constexpr double kMore = 1.05;
-    std::vector<Likely> with_course;
-    std::swap(around, with_course);
-    for (const FlankWay& way : ways)
-      add_around({}, {}, way,
-                 [&](const OfFlank& flank) { return projected(flank.profile, whole, false); });
-    double most = 0.0;
-    for (const Likely& one : around) most = std::max(most, one.gain);
-    std::erase_if(with_course, [&](const Likely& one) { return one.gain < kMore * most; });
-    std::swap(around, with_course);
-  }
-  constexpr std::size_t kKinds = 4, kKindsOfAWay = 2;
-  likeliest.same_on_every_tooth = best_of(std::move(same), kKinds);
-  likeliest.beside_names = best_of(std::move(beside), kKinds);
-  likeliest.around_the_gear = best_of(std::move(around), kKindsOfAWay);
-  likeliest.waves = likeliest_waves(g, teeth, profiles, faces, arounds, scan);
-  for (const auto& tooth : teeth)
-    for (const OfFlank& flank : tooth) likeliest.square += flank.square;
-  likeliest.square_beside_names += likeliest.square;
-  return likeliest;
+  constexpr double kMore = 1.05;
+  std::erase_if(forms, [&](const Likely& one) {
+    return one.form.family == nullptr || one.gain < kMore * most_of_whole_flanks;
+  });
+  return best_of(std::move(forms), kKindsOfAWay);
+}
+
+std::vector<LikelyForms> LikeliestProducts::waves() const {
+  const auto& [g, scan, teeth, profiles, faces, ways] = *cells_;
+  return likeliest_waves(g, teeth, profiles, faces, arounds_of(g), scan);
 }
 
 }  // namespace trueflank::loop

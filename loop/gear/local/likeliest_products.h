@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "trueflank/loop/gear/effect.h"
@@ -14,20 +15,29 @@ struct LikelyForms {
   std::vector<Effect> forms;
 };
 
-/// Products of courses that values look like most, to start from.
-struct LikeliestProducts {
-  std::vector<LikelyForms> same_on_every_tooth;    ///< unnamed_crossed
-  std::vector<LikelyForms> beside_names;           ///< the same, beside levels, slopes and bows
-  std::vector<LikelyForms> around_the_gear;        ///< unnamed_crossed_around
-  std::vector<LikelyForms> waves;                  ///< unnamed_crossed_waves
-  double square = 0.0, square_beside_names = 0.0;  ///< of the residuals
-};
+/// Products of courses that values look like most, to start from: from residuals of scanned flanks
+/// and of traces, as sums in cells of the flanks. What other effects beside a form take out is not
+/// asked.
+class LikeliestProducts {
+ public:
+  /// Of every row of the table; the geometry stays where it is.
+  LikeliestProducts(const FlankGeometry& geometry, const Observations& table,
+                    const Patches& patches, const std::vector<float>& row_um);
 
-/// From residuals of scanned flanks and of traces (`row_um`: of every row of the table), as sums in
-/// cells of the flanks: what other effects beside a form take out is not asked.
-[[nodiscard]] LikeliestProducts likeliest_products(const FlankGeometry& geometry,
-                                                   const Observations& table,
-                                                   const Patches& patches,
-                                                   const std::vector<float>& row_um);
+  [[nodiscard]] double square() const;                                 ///< of the residuals
+  [[nodiscard]] std::vector<LikelyForms> same_on_every_tooth() const;  ///< unnamed_crossed
+  /// The same beside levels, slopes and bows, and the square of what these leave.
+  struct BesideNames {
+    std::vector<LikelyForms> forms;
+    double square = 0.0;
+  };
+  [[nodiscard]] BesideNames beside_names() const;
+  [[nodiscard]] std::vector<LikelyForms> around_the_gear() const;  ///< unnamed_crossed_around
+  [[nodiscard]] std::vector<LikelyForms> waves() const;            ///< unnamed_crossed_waves
+
+ private:
+  struct Cells;
+  std::shared_ptr<const Cells> cells_;
+};
 
 }  // namespace trueflank::loop

@@ -123,7 +123,7 @@ std::vector<Effect> PartLoop::with_products(std::vector<std::size_t>& these) con
     return others;
   };
   const auto likeliest_without = [&](const std::vector<Effect>& others) {
-    return likeliest_products(geometry_, table_, patches_, *fit_of(others)->residuals_um());
+    return LikeliestProducts(geometry_, table_, patches_, *fit_of(others)->residuals_um());
   };
   const auto try_forms = [&](const std::vector<std::size_t>& set,
                              const std::vector<LikelyForms>& forms, double least_gain,
@@ -150,17 +150,16 @@ std::vector<Effect> PartLoop::with_products(std::vector<std::size_t>& these) con
     const std::vector<Effect> others = others_of(set);
     const LikeliestProducts likeliest = likeliest_without(others);
     const double share = 1.0 - now / fit_of(others)->residual_square();
-    try_forms(set, likeliest.same_on_every_tooth, kMostOfIt * share * likeliest.square, {});
+    try_forms(set, likeliest.same_on_every_tooth(), kMostOfIt * share * likeliest.square(), {});
   }
   if (best.empty() && !crossed.empty() && crossed.front().size() > 1) {
     const std::vector<Effect> others = others_of(crossed.front()),
                               names = common_names_beside(others);
     std::vector<Effect> with_names = others;
     with_names.insert(with_names.end(), names.begin(), names.end());
-    const LikeliestProducts likeliest = likeliest_without(others);
+    const auto [forms, square] = likeliest_without(others).beside_names();
     const double share = 1.0 - now / fit_of(with_names)->residual_square();
-    try_forms(crossed.front(), likeliest.beside_names,
-              kMostOfIt * share * likeliest.square_beside_names, names);
+    try_forms(crossed.front(), forms, kMostOfIt * share * square, names);
   }
   std::vector<std::size_t> nameless, all;
   std::vector<Effect> own;
@@ -181,10 +180,11 @@ std::vector<Effect> PartLoop::with_products(std::vector<std::size_t>& these) con
     if (set.size() < 2) continue;
     const std::vector<Effect> others = others_of(set);
     const LikeliestProducts likeliest = likeliest_without(others);
+    const std::vector<LikelyForms> forms = likeliest.around_the_gear();
     const double share = 1.0 - now / fit_of(others)->residual_square();
-    try_forms(set, likeliest.around_the_gear, kMostOfIt * share * likeliest.square, {});
+    try_forms(set, forms, kMostOfIt * share * likeliest.square(), {});
     if (best.empty() || best.back().family != find_family("unnamed_crossed_around"))
-      for (const LikelyForms& likely : likeliest.around_the_gear)
+      for (const LikelyForms& likely : forms)
         if (const auto pieces = pieces_of(likely.forms.front(), set);
             pieces.size() > 1 && pieces.size() < set.size())
           try_forms(pieces, {likely}, 0.0, {});
@@ -196,8 +196,7 @@ std::vector<Effect> PartLoop::with_products(std::vector<std::size_t>& these) con
            e.family == find_family("unnamed_marks");
   });
   if (best.empty() && waves && nameless.size() > 1) {
-    const LikeliestProducts likeliest = likeliest_without(others_of(nameless));
-    for (const LikelyForms& likely : likeliest.waves) {
+    for (const LikelyForms& likely : likeliest_without(others_of(nameless)).waves()) {
       const auto pieces = pieces_of(likely.forms.front(), nameless);
       if (pieces.size() > 1) try_forms(pieces, {likely}, 0.0, {});
     }
