@@ -12,9 +12,9 @@
 #include "trueflank/base/units.h"
 #include "trueflank/loop/gear/effects/along_flank.h"
 #include "trueflank/loop/gear/effects/columns.h"
-#include "trueflank/loop/gear/effects/flank_course.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/effects/sign_words.h"
+#include "trueflank/loop/gear/effects/simple_courses.h"
 
 namespace trueflank::loop::gear_effects {
 namespace {

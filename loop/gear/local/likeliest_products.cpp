@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "trueflank/base/units.h"
-#include "trueflank/loop/gear/effects/flank_course.h"
 #include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/effects/simple_courses.h"
 #include "trueflank/loop/gear/local/product_cells.h"
 
 namespace trueflank::loop {
@@ -113,11 +113,17 @@ Likely best_around(const FlankGeometry& g, const Arounds& arounds,
       (square > kAnything * all)
           .select(product.square() / square, 0.0)
           .max((square_beside > kAnything * all).select(beside_mean.square() / square_beside, 0.0));
-  // (a slope or bow in a wave, or raised, is what the free form has)
-  const bool free = FlankCourse::at(shape, 0).is_of_free_form(g, 0.0) &&
-                    FlankCourse::at(shape, FlankCourse::kValues).is_of_free_form(g, 1.0);
+  // A slope or bow in a wave is what the free form has, and whole sections that stand aside are
+  // told as these.
+  const FlankCourse profile = FlankCourse::at(shape, 0),
+                    face = FlankCourse::at(shape, FlankCourse::kValues);
+  const bool free = profile.is_of_free_form(g, 0.0) && face.is_of_free_form(g, 1.0),
+             sections = profile.kind == FlankCourse::kWhole;
   Eigen::Index best = 0;
-  const double gain = (free ? gains * arounds.beside_free_form : gains).maxCoeff(&best);
+  const double gain = (free       ? Eigen::ArrayXd(gains * arounds.beside_free_form)
+                       : sections ? Eigen::ArrayXd(gains * arounds.beside_motions)
+                                  : gains)
+                          .maxCoeff(&best);
   const std::size_t own = shape.size();
   shape.resize(own + AroundCourse::kValues);
   arounds.courses[static_cast<std::size_t>(best)].put_in(shape, own);

@@ -33,7 +33,7 @@ struct LikelyWaves {
 LikelyWaves likely_waves(const FlankGeometry& g, const OfTeeth& teeth, const FlankWay& way,
                          int face, const std::vector<CourseInCells>& across,
                          const Arounds& arounds) {
-  constexpr double kFewest = 1.5, kMost = 14.0,
+  constexpr double kFewest = 2.0, kMost = 14.0,
                    kStep = 0.25;  // waves: a cell is half of one at most
   const double range_mm =
       face != 0 ? g.face_width_mm() : std::abs(g.tip_form_roll_mm() - g.root_form_roll_mm());
@@ -72,6 +72,8 @@ LikelyWaves likely_waves(const FlankGeometry& g, const OfTeeth& teeth, const Fla
       likely.across.push_back({gain_of(c, s, weight), form(course.course, {AroundCourse::kEvery})});
     }
     for (std::size_t a = 0; a < arounds.courses.size(); ++a) {
+      const AroundCourse::Kind kind = arounds.courses[a].kind;
+      if (kind == AroundCourse::kRamp || kind == AroundCourse::kWave) continue;
       double c = 0.0, s = 0.0, weight = 0.0;
       for (std::size_t t = 0; t < teeth.size(); ++t) {
         const double on =

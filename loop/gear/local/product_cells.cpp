@@ -47,10 +47,12 @@ Arounds arounds_of(const FlankGeometry& g) {
     for (int tooth = 1; tooth <= g.teeth(); ++tooth)
       all.on_teeth(i, tooth - 1) = all.courses[static_cast<std::size_t>(i)].value(g, tooth);
   all.squares = all.on_teeth.cwiseAbs2();
-  all.beside_free_form.resize(all.on_teeth.rows());
-  for (Eigen::Index i = 0; i < all.on_teeth.rows(); ++i)
-    all.beside_free_form[i] =
-        all.courses[static_cast<std::size_t>(i)].is_of_free_form() ? 0.0 : 1.0;
+  all.beside_free_form = all.beside_motions = Eigen::ArrayXd::Ones(all.on_teeth.rows());
+  for (Eigen::Index i = 0; i < all.on_teeth.rows(); ++i) {
+    const AroundCourse& course = all.courses[static_cast<std::size_t>(i)];
+    if (course.is_of_free_form()) all.beside_free_form[i] = 0.0;
+    if (course.kind == AroundCourse::kWave && course.half_deg == 180.0) all.beside_motions[i] = 0.0;
+  }
   return all;
 }
 

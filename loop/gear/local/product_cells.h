@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "trueflank/loop/gear/effects/flank_course.h"
+#include "trueflank/loop/gear/effects/simple_courses.h"
 #include "trueflank/loop/gear/local/likeliest_products.h"
 
 // Residuals summed in cells of every flank, and courses in these: what likeliest_products.h seeks
@@ -65,6 +65,7 @@ struct Arounds {
   std::vector<AroundCourse> courses;
   Eigen::MatrixXd on_teeth, squares;
   Eigen::ArrayXd beside_free_form;  ///< 0 of a mean and waves, 1 of others
+  Eigen::ArrayXd beside_motions;    ///< 0 of one wave a turn, as what moves aside has it
 };
 [[nodiscard]] Arounds arounds_of(const FlankGeometry& geometry);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/effects/flank_course.h"
+#include "trueflank/loop/gear/effects/simple_courses.h"
 
 #include <algorithm>
 #include <cmath>
