@@ -119,6 +119,12 @@ EffectFamily unnamed_crossed() {
   return f;
 }
 
+bool is_product_of_polynomials(const FlankGeometry& g, const Effect& form) {
+  return form.family == find_family("unnamed_crossed") &&
+         FlankCourse::at(form.shape, kProfile).is_of_free_form(g, 0.0) &&
+         FlankCourse::at(form.shape, kFace).is_of_free_form(g, 1.0);
+}
+
 /// Resin or oil that gathers on the lower side, a tool that wears at its tip from tooth to tooth.
 /// Told in place of forms of some teeth, and once or more often per turn, that follow it
 /// (part_loop_crossed.cpp), and no candidate of its own.

@@ -303,8 +303,9 @@ std::vector<Pair> best_pairs(std::vector<Pair> pairs, const std::vector<CourseIn
 }
 
 /// Pairs of which both run: the likeliest, as the same on every tooth. Where a course in one
-/// direction alone says nearly as much there is none; a band times a band is a dish.
-std::vector<Likely> likeliest_of(const std::vector<Pair>& pairs,
+/// direction alone says nearly as much there is none; a band times a band is a dish, and a
+/// polynomial times a polynomial grows over profile and face (unnamed_product).
+std::vector<Likely> likeliest_of(const FlankGeometry& g, const std::vector<Pair>& pairs,
                                  const std::vector<CourseInCells>& profiles,
                                  const std::vector<CourseInCells>& faces,
                                  const std::array<FlankWay, 4>& ways) {
@@ -326,7 +327,9 @@ std::vector<Likely> likeliest_of(const std::vector<Pair>& pairs,
   for (const Pair& pair : pairs) {
     const bool dish =
         is(profiles[pair.profile], FlankCourse::kBand) && is(faces[pair.face], FlankCourse::kBand);
-    if (is_crossed(pair) && pair.alike > least && !dish)
+    const bool free = profiles[pair.profile].course.is_of_free_form(g, 0.0) &&
+                      faces[pair.face].course.is_of_free_form(g, 1.0);
+    if (is_crossed(pair) && pair.alike > least && !dish && !free)
       forms.push_back(
           {pair.alike,
            {find_family("unnamed_crossed"), ways[pair.way].flank,
@@ -375,7 +378,7 @@ double LikeliestProducts::square() const {
 std::vector<LikelyForms> LikeliestProducts::same_on_every_tooth() const {
   const auto& [g, scan, teeth, profiles, faces, ways] = *cells_;
   if (!scan) return {};
-  return best_of(likeliest_of(pairs_of(teeth, profiles, faces, ways), profiles, faces, ways),
+  return best_of(likeliest_of(g, pairs_of(teeth, profiles, faces, ways), profiles, faces, ways),
                  kKinds);
 }
 
@@ -389,7 +392,7 @@ LikeliestProducts::BesideNames LikeliestProducts::beside_names() const {
         for (std::size_t v = 0; v < kProductCells; ++v) mean[side][u][v] += group[side][u][v];
   const std::array names{SumsOfNames(mean[0]), SumsOfNames(mean[1])};
   const std::vector<Pair> pairs = pairs_beside_names(mean, names, profiles, faces, ways);
-  return {best_of(likeliest_of(pairs, profiles, faces, ways), kKinds),
+  return {best_of(likeliest_of(g, pairs, profiles, faces, ways), kKinds),
           square() - names[0].square() - names[1].square()};
 }
 

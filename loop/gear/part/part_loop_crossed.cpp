@@ -132,7 +132,9 @@ std::vector<Effect> PartLoop::with_products(std::vector<std::size_t>& these) con
       if (likely.gain < least_gain) continue;
       std::vector<std::size_t> taken;
       std::vector<Effect> with = cheapest_one_form({set}, likely.forms, beside, taken);
-      const double cost = with.empty() ? 1e300 : cost_of(with);
+      // (what grows over profile and face is told as that: tell_as_product)
+      if (with.empty() || gear_effects::is_product_of_polynomials(geometry_, with.back())) continue;
+      const double cost = cost_of(with);
       if (!(cost < least)) continue;
       least = cost;
       best = std::move(with);
