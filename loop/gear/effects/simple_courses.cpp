@@ -16,6 +16,9 @@ namespace {
 constexpr double kNearestEnd = 0.04, kNearestStep = 0.08, kNarrowest = 0.03, kWidest = 0.4,
                  kShortest = 0.02, kLongest = 0.6, kLongestOfBoth = 0.2;
 
+/// Half of a sector: of more teeth it is what the others do not have.
+constexpr double kWidestSector_deg = 150.0;
+
 double share_of(const FlankGeometry& g, double face, double place_mm) {
   const double low = end_mm(g, face, -1.0), high = end_mm(g, face, 1.0);
   return (stands_at(g, face, place_mm) - low) / (high - low);
@@ -256,9 +259,9 @@ std::vector<AroundCourse> AroundCourse::beside(const FlankGeometry& g) const {
   const auto add = [&](const AroundCourse& course) {
     if (course.kind == kBell && (course.half_deg < kNarrowest_deg || course.half_deg > kWidest_deg))
       return;
-    // (of all teeth but one, or of one, it is another form)
+    // (of nearly all teeth, or of one, it is another form)
     if (course.kind == kSector &&
-        (course.half_deg < pitch_deg || course.half_deg > 180.0 - pitch_deg))
+        (course.half_deg < pitch_deg || course.half_deg > kWidestSector_deg))
       return;
     courses.push_back(course);
   };
@@ -336,7 +339,7 @@ std::vector<AroundCourse> courses_around(const FlankGeometry& g) {
   for (const double half : {25.0, 40.0, 60.0, 85.0})
     courses.push_back({AroundCourse::kBell, 0.0, half});
   const double pitch_deg = 360.0 / g.teeth();
-  for (double half = 1.5 * pitch_deg; half < 180.0 - pitch_deg;
+  for (double half = 1.5 * pitch_deg; half < kWidestSector_deg;
        half = std::max(half + 0.5 * pitch_deg, 1.25 * half))
     courses.push_back({AroundCourse::kSector, 0.0, half});
   for (int order = 1; order <= kMostWaves && 3 * order <= g.teeth(); ++order)

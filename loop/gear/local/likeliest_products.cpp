@@ -124,6 +124,9 @@ Likely best_around(const FlankGeometry& g, const Arounds& arounds,
                        : sections ? Eigen::ArrayXd(gains * arounds.beside_motions)
                                   : gains)
                           .maxCoeff(&best);
+  // (what the same courses on every tooth say nearly as well does not go around the gear)
+  constexpr double kMore = 1.05;
+  if (gain < kMore * products.sum() * products.sum() / all) return {};
   const std::size_t own = shape.size();
   shape.resize(own + AroundCourse::kValues);
   arounds.courses[static_cast<std::size_t>(best)].put_in(shape, own);
