@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <utility>
+#include <unsupported/Eigen/FFT>
 
 #include "trueflank/base/units.h"
 
@@ -18,167 +17,6 @@ constexpr double kHighestWhole = 96.0;
 constexpr double kMostLines = 3e5;
 /// Rows times lines from which on the lines are summed by a transform.
 constexpr double kMuch = 2e7;
-
-/// The inverse Fourier transform, unscaled, of a power of two of places: what Eigen::FFT (kissfft)
-/// gives, to the last bit, in half its time. What its stages read stands beside each other: their
-/// factors and the values of the first parts. In one table it stands powers of two apart, for which
-/// a cache has few lines.
-class InverseTransform {
- public:
-  explicit InverseTransform(std::size_t places) : places_(places) {
-    const std::vector<Complex> factors = roots_of_one(places);
-    for (std::size_t rest = places, apart = 1; rest > 1;) {
-      Stage stage{.parts = rest % 4 == 0 ? 4U : 2U};
-      stage.of_part = rest /= stage.parts;
-      for (std::size_t k = 0; k < stage.of_part; ++k)
-        for (std::size_t part = 1; part < stage.parts; ++part)
-          stage.factors.push_back(factors[k * apart * part]);
-      apart *= stage.parts;
-      stages_.push_back(std::move(stage));
-    }
-  }
-
-  [[nodiscard]] std::size_t places() const { return places_; }
-
-  [[nodiscard]] std::vector<Complex> of(const std::vector<Complex>& values) const {
-    constexpr std::size_t kPartsBeside = 16;
-    std::size_t deep = 0, parts = 1;
-    while (deep + 1 < stages_.size() && parts < kPartsBeside) parts *= stages_[deep++].parts;
-    const std::size_t m = places_ / parts;
-    std::vector<Complex> beside(places_), result(places_);
-    for (std::size_t k = 0; k < m; ++k)
-      for (std::size_t part = 0; part < parts; ++part)
-        beside[part * m + k] = values[k * parts + part];
-    transform_parts({beside.data(), deep, m}, 0, 0, 1, result.data());
-    return result;
-  }
-
- private:
-  struct Stage {
-    std::size_t parts = 0, of_part = 0;
-    std::vector<Complex> factors;  ///< of each place; not of the first part, whose is 1
-  };
-  /// Values of the parts that the first stages leave, each beside itself.
-  struct Parts {
-    const Complex* values = nullptr;
-    std::size_t stages = 0, of_one = 0;
-  };
-
-  /// By sines and cosines of less than an eighth of a turn.
-  static std::vector<Complex> roots_of_one(std::size_t count) {
-    const int n = static_cast<int>(count);
-    const double eighth = 0.25 * kPi / n;
-    std::vector<Complex> roots(count);
-    const auto put = [&](int i, double c, double s) {
-      roots[static_cast<std::size_t>(i)] = {c, s};
-      roots[static_cast<std::size_t>(n - i)] = {c, -s};
-    };
-    roots[0] = {1.0, 0.0};
-    roots[count / 2] = {-1.0, 0.0};
-    int i = 1;
-    for (; i * 8 < n; ++i) put(i, std::cos(i * 8 * eighth), std::sin(i * 8 * eighth));
-    for (; i * 4 < n; ++i)
-      put(i, std::sin((2 * n - 8 * i) * eighth), std::cos((2 * n - 8 * i) * eighth));
-    for (; i * 8 < 3 * n; ++i)
-      put(i, -std::sin((8 * i - 2 * n) * eighth), std::cos((8 * i - 2 * n) * eighth));
-    for (; i * 2 < n; ++i)
-      put(i, -std::cos((4 * n - 8 * i) * eighth), std::sin((4 * n - 8 * i) * eighth));
-    return roots;
-  }
-
-  /// Without the case of products that are no numbers, for which the operator looks.
-  static Complex product(const Complex& a, const Complex& b) {
-    return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-  }
-
-  /// Of every `apart`-th part from the first on.
-  void transform_parts(const Parts& parts, std::size_t at, std::size_t first, std::size_t apart,
-                       Complex* to) const {
-    if (at == parts.stages) return transform(at, parts.values + first * parts.of_one, 1, to);
-    const Stage& stage = stages_[at];
-    for (std::size_t part = 0; part < stage.parts; ++part)
-      transform_parts(parts, at + 1, first + part * apart, apart * stage.parts,
-                      to + part * stage.of_part);
-    join(stage, to);
-  }
-
-  /// Of every `apart`-th value.
-  void transform(std::size_t at, const Complex* values, std::size_t apart, Complex* to) const {
-    const Stage& stage = stages_[at];
-    for (std::size_t part = 0; part < stage.parts; ++part) {
-      if (stage.of_part > 1)
-        transform(at + 1, values + part * apart, apart * stage.parts, to + part * stage.of_part);
-      else
-        to[part] = values[part * apart];
-    }
-    join(stage, to);
-  }
-
-  static void join(const Stage& stage, Complex* to) {
-    const std::size_t m = stage.of_part;
-    const Complex* factor = stage.factors.data();
-    if (stage.parts == 2) {
-      for (std::size_t k = 0; k < m; ++k) {
-        const Complex one = product(to[m + k], factor[k]);
-        to[m + k] = to[k] - one;
-        to[k] += one;
-      }
-      return;
-    }
-    for (std::size_t k = 0; k < m; ++k, factor += 3) {
-      const Complex one = product(to[k + m], factor[0]), two = product(to[k + 2 * m], factor[1]),
-                    three = product(to[k + 3 * m], factor[2]);
-      const Complex even = to[k] + two, odd = to[k] - two, sum = one + three, off = one - three;
-      const Complex turned{-off.imag(), off.real()};
-      to[k] = even + sum;
-      to[k + m] = odd + turned;
-      to[k + 2 * m] = even - sum;
-      to[k + 3 * m] = odd - turned;
-    }
-  }
-
-  std::size_t places_ = 0;
-  std::vector<Stage> stages_;
-};
-
-/// A grid twice as fine as so many lines, and the next power of two.
-std::size_t grid_of(int lines) {
-  std::size_t half = 16;
-  while (half < static_cast<std::size_t>(lines)) half *= 2;
-  return 2 * half;
-}
-
-std::vector<Complex> line_sums_by(const InverseTransform& transform,
-                                  const std::vector<double>& angle_rad,
-                                  const std::vector<double>& size, double first, double step,
-                                  int lines) {
-  // The Gaussian falls to 1e-12 over so many places of a grid twice as fine as the lines.
-  constexpr int kReach = 12;
-  const int grid = static_cast<int>(transform.places()), half = grid / 2;
-  const double n = half, spread = kPi * kReach / (n * n * 3.0);
-  const double place = kTwoPi / grid, middle = 0.5 * n;
-  std::vector<Complex> spread_out(static_cast<std::size_t>(grid));
-  for (std::size_t i = 0; i < angle_rad.size(); ++i) {
-    const double turned = step * angle_rad[i] / kTwoPi;
-    const double x = kTwoPi * (turned - std::floor(turned));
-    const Complex value = size[i] * std::polar(1.0, first * angle_rad[i] + middle * x);
-    const int nearest = static_cast<int>(x / place);
-    for (int j = nearest - kReach + 1; j <= nearest + kReach; ++j) {
-      const double off = x - j * place;
-      spread_out[static_cast<std::size_t>((j + grid) % grid)] +=
-          value * std::exp(-off * off / (4.0 * spread));
-    }
-  }
-  const std::vector<Complex> sums = transform.of(spread_out);
-  std::vector<Complex> result(static_cast<std::size_t>(lines));
-  for (int k = 0; k < lines; ++k) {
-    const double off = k - middle;
-    result[static_cast<std::size_t>(k)] =
-        sums[static_cast<std::size_t>((k - half / 2 + grid) % grid)] *
-        (std::sqrt(kPi / spread) * std::exp(off * off * spread) / grid);
-  }
-  return result;
-}
 
 class Spectrum {
  public:
@@ -288,12 +126,9 @@ class Spectrum {
 
   void all_lines_at_once() {
     const int lines = static_cast<int>((kHighest - first_) / step_) + 1;
-    if (!transform_) transform_ = std::make_unique<const InverseTransform>(grid_of(lines));
-    const std::vector<Complex> of_size =
-        line_sums_by(*transform_, angle_, size_, first_, step_, lines);
+    const std::vector<Complex> of_size = line_sums(angle_, size_, first_, step_, lines);
     // The sums of squares are waves of twice the order; the directions' signs are not in them.
-    if (!opposite_)
-      of_one_ = line_sums_by(*transform_, angle_, square_, 2.0 * first_, 2.0 * step_, lines);
+    if (!opposite_) of_one_ = line_sums(angle_, square_, 2.0 * first_, 2.0 * step_, lines);
     for (int k = 0; k < lines; ++k) {
       const auto at = static_cast<std::size_t>(k);
       judge(first_ + step_ * k, of_size[at].real(), of_size[at].imag(),
@@ -305,7 +140,6 @@ class Spectrum {
   const bool wrapped_;
   std::vector<double> angle_, left_, load_, size_, square_;
   std::vector<Complex> of_one_;  ///< line sums of the squares, with the load or without
-  std::unique_ptr<const InverseTransform> transform_;  ///< for all lines at once
   std::vector<bool> forward_;
   double sum_ = 0.0, rows_ = 0.0, weights_ = 0.0, step_ = 1.0, first_ = 1.0, highest_ = 0.0;
   bool both_ = false, opposite_ = false, with_load_ = false;
@@ -322,7 +156,35 @@ LikeliestOrder likeliest_order(const DriveContext& context, const Eigen::VectorX
 
 std::vector<Complex> line_sums(const std::vector<double>& angle_rad, const std::vector<double>& size,
                                double first, double step, int lines) {
-  return line_sums_by(InverseTransform(grid_of(lines)), angle_rad, size, first, step, lines);
+  // The Gaussian falls to 1e-12 over so many places of a grid twice as fine as the lines.
+  constexpr int kReach = 12;
+  int half = 16;
+  while (half < lines) half *= 2;
+  const int grid = 2 * half;
+  const double n = half, spread = kPi * kReach / (n * n * 3.0);
+  const double place = kTwoPi / grid, middle = 0.5 * n;
+  std::vector<Complex> spread_out(static_cast<std::size_t>(grid)), sums;
+  for (std::size_t i = 0; i < angle_rad.size(); ++i) {
+    const double turned = step * angle_rad[i] / kTwoPi;
+    const double x = kTwoPi * (turned - std::floor(turned));
+    const Complex value = size[i] * std::polar(1.0, first * angle_rad[i] + middle * x);
+    const int nearest = static_cast<int>(x / place);
+    for (int j = nearest - kReach + 1; j <= nearest + kReach; ++j) {
+      const double off = x - j * place;
+      spread_out[static_cast<std::size_t>((j + grid) % grid)] +=
+          value * std::exp(-off * off / (4.0 * spread));
+    }
+  }
+  Eigen::FFT<double> transform;
+  transform.SetFlag(Eigen::FFT<double>::Unscaled);
+  transform.inv(sums, spread_out);
+  std::vector<Complex> result(static_cast<std::size_t>(lines));
+  for (int k = 0; k < lines; ++k) {
+    const double off = k - middle;
+    result[static_cast<std::size_t>(k)] = sums[static_cast<std::size_t>((k - half / 2 + grid) % grid)] *
+                                          (std::sqrt(kPi / spread) * std::exp(off * off * spread) / grid);
+  }
+  return result;
 }
 
 }  // namespace trueflank::loop
