@@ -42,8 +42,7 @@ TEST(NamesOfWholeGears, AScaleBesideAHollowFromEndToEnd) {
   auto scan = scan_of(gear, {scaled(kPercent), grown(hollow)}, scanned(9000, 2.0, 3));
   add_tips(gear, kPercent, scan);
   const auto result = close(gear, scan, true);
-  ASSERT_NE(find(result, "scale"), nullptr) << list(result);
-  EXPECT_NEAR(parameter(*find(result, "scale"), "percent").value, kPercent, 0.01) << list(result);
+  expect_size(result, "scale", "percent", kPercent, 0.01);
   EXPECT_TRUE(tells_of(result, "a hollow over the face from end to end, most at a height of 6"))
       << list(result);
   EXPECT_EQ(result.effects.size(), 2U) << list(result);
@@ -62,9 +61,7 @@ TEST(NamesOfWholeGears, ReliefsBesideTeethThatStandAside) {
       return aside ? off_centre(36.0, deg).move_um(g, s, p) : Vec3{0.0, 0.0, 0.0};
     };
     const auto result = close(gear, scan_of(gear, {both}, scanned(9000, 1.8, 4)), true);
-    ASSERT_NE(find(result, "tip_relief"), nullptr) << list(result);
-    EXPECT_NEAR(parameter(*find(result, "tip_relief"), "amount_um").value, 11.6, 0.6)
-        << list(result);
+    expect_size(result, "tip_relief", "amount_um", 11.6, 0.6);
     EXPECT_TRUE(tells_of(result, "8 teeth from tooth 11 on stand aside")) << list(result);
     EXPECT_EQ(result.effects.size(), 2U) << list(result);
   }
@@ -81,8 +78,7 @@ TEST(NamesOfWholeGears, ATaperBesideAThicknessThatWobbles) {
     return -2.1 * s.v + 4.1 * s.v * (std::cos(2.0 * at - 0.9) + 0.5 * std::cos(3.0 * at + 0.9));
   };
   const auto result = close(gear, inspection_of(gear, {grown(wobble)}, options));
-  ASSERT_NE(find(result, "taper"), nullptr) << list(result);
-  EXPECT_NEAR(parameter(*find(result, "taper"), "slope_um").value, -4.2, 0.2) << list(result);
+  expect_size(result, "taper", "slope_um", -4.2, 0.2);
 }
 
 // Nicks on a few teeth made the choice forget that the gear is out of round.
@@ -104,8 +100,7 @@ TEST(NamesOfWholeGears, LobesBesideNicksAtTheTips) {
   const auto result = close(
       gear, scan_of(gear, {out_of_round(3, 22.9, -44.3), grown(nicked)}, scanned(13000, 2.0, 1)),
       true);
-  ASSERT_NE(find(result, "lobing"), nullptr) << list(result);
-  EXPECT_NEAR(parameter(*find(result, "lobing"), "amplitude_um").value, 22.9, 0.8) << list(result);
+  expect_size(result, "lobing", "amplitude_um", 22.9, 0.8);
 }
 
 // A little that may be left does not keep an answer that leaves several times more.
@@ -119,11 +114,8 @@ TEST(NamesOfWholeGears, AScaleAndALeadBesideDirtOnOneSide) {
   };
   const auto result =
       close(gear, scan_of(gear, {scaled(kPercent), grown(dirt)}, scanned(11000, 2.5, 10)), true);
-  ASSERT_NE(find(result, "scale"), nullptr) << list(result);
-  EXPECT_NEAR(parameter(*find(result, "scale"), "percent").value, kPercent, 0.01) << list(result);
-  ASSERT_NE(find(result, "helix_error"), nullptr) << list(result);
-  EXPECT_NEAR(parameter(*find(result, "helix_error"), "slope_um").value, -20.8, 0.6)
-      << list(result);
+  expect_size(result, "scale", "percent", kPercent, 0.01);
+  expect_size(result, "helix_error", "slope_um", -20.8, 0.6);
   EXPECT_TRUE(tells_of(result, "flanks that face towards 251 deg stand out")) << list(result);
 }
 

@@ -7,6 +7,7 @@
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/gear/effect.h"
+#include "trueflank/loop/gear/effects/columns.h"
 
 // Forms without a name that run over the profile (0) or the face (1), the first of their shape
 // values: places, ends and words of these.
@@ -51,14 +52,25 @@ namespace trueflank::loop::gear_effects {
   if (face != 0.0) return end < 0.0 ? 0.0 : g.face_width_mm();
   return end < 0.0 ? g.root_form_roll_mm() : g.tip_form_roll_mm();
 }
-/// "at a height of 4 mm", "at a diameter of 30.12 mm"; a place off the flank is at its end.
-[[nodiscard]] inline std::string at_place(const FlankGeometry& g, double face, double place_mm) {
+/// Where a form stands, 0 at the lower end or the root and 1 at the other; and its place for that.
+[[nodiscard]] inline double share_at(const FlankGeometry& g, double face, double place_mm) {
   const double low = end_mm(g, face, -1.0), high = end_mm(g, face, 1.0);
-  const double share = (stands_at(g, face, place_mm) - low) / (high - low);
-  if (!(share > 0.0)) return face != 0.0 ? "at the lower end" : "at the root";
-  if (!(share < 1.0)) return face != 0.0 ? "at the upper end" : "at the tip";
-  return face != 0.0 ? printed("at a height of %.3g mm", place_mm)
-                     : printed("at a diameter of %.5g mm", place_mm);
+  return (stands_at(g, face, place_mm) - low) / (high - low);
+}
+[[nodiscard]] inline double place_at(const FlankGeometry& g, double face, double share) {
+  return face != 0.0 ? share * g.face_width_mm() : diameter_at_roll_share(g, share);
+}
+/// "a height of 4 mm", "a diameter of 30.12 mm"; a place off the flank is its end.
+[[nodiscard]] inline std::string words_of_place(const FlankGeometry& g, double face,
+                                                double place_mm) {
+  const double share = share_at(g, face, place_mm);
+  if (!(share > 0.0)) return face != 0.0 ? "the lower end" : "the root";
+  if (!(share < 1.0)) return face != 0.0 ? "the upper end" : "the tip";
+  return face != 0.0 ? printed("a height of %.3g mm", place_mm)
+                     : printed("a diameter of %.5g mm", place_mm);
+}
+[[nodiscard]] inline std::string at_place(const FlankGeometry& g, double face, double place_mm) {
+  return "at " + words_of_place(g, face, place_mm);
 }
 [[nodiscard]] inline std::string towards(double face, double end) {
   if (end == 0.0) return " to both sides";

@@ -19,18 +19,6 @@ constexpr double kNearestEnd = 0.04, kNearestStep = 0.08, kNarrowest = 0.03, kWi
 /// Half of a sector: of more teeth it is what the others do not have.
 constexpr double kWidestSector_deg = 150.0;
 
-double share_of(const FlankGeometry& g, double face, double place_mm) {
-  const double low = end_mm(g, face, -1.0), high = end_mm(g, face, 1.0);
-  return (stands_at(g, face, place_mm) - low) / (high - low);
-}
-
-/// Roll length becomes a diameter.
-double place_at_share(const FlankGeometry& g, double face, double share) {
-  const double low = end_mm(g, face, -1.0), high = end_mm(g, face, 1.0);
-  const double at = low + share * (high - low);
-  return face != 0.0 ? at : 2.0 * g.on_flank(1, 1, at, 0.0).radius_mm;
-}
-
 }  // namespace
 
 void FlankCourse::put_in(EffectShape& shape, std::size_t first) const {
@@ -82,7 +70,7 @@ bool FlankCourse::is_of_free_form(const FlankGeometry& g, double face) const {
       return true;
     case kKink:
     case kBend: {
-      const double share = share_of(g, face, mm);
+      const double share = share_at(g, face, mm);
       return (towards > 0.0 ? share : 1.0 - share) < kNearlyAll;
     }
     case kRise:
@@ -122,7 +110,7 @@ bool is_of_its_kind(const FlankGeometry& g, double face, const FlankCourse& cour
   };
   if (course.kind == FlankCourse::kRise)
     return between(course.mm / range, kShortest, course.towards != 0.0 ? kLongest : kLongestOfBoth);
-  const double share = share_of(g, face, course.mm);
+  const double share = share_at(g, face, course.mm);
   if (course.kind == FlankCourse::kStep) return between(share, kNearestStep, 1.0 - kNearestStep);
   if (course.kind == FlankCourse::kBand)
     return between(share, 0.0, 1.0) && between(course.half_mm / range, kNarrowest, kWidest);
@@ -145,17 +133,17 @@ std::vector<FlankCourse> FlankCourse::beside(const FlankGeometry& g, double face
       add({kind, times * mm, towards});
     if (towards != 0.0) {
       const double length = std::min(0.9, 2.0 * mm / range);
-      const double place = place_at_share(g, face, towards > 0.0 ? 1.0 - length : length);
+      const double place = place_at(g, face, towards > 0.0 ? 1.0 - length : length);
       add({kKink, place, towards});
       add({kBend, place, towards});
     }
     return courses;
   }
-  const double share = share_of(g, face, mm);
+  const double share = share_at(g, face, mm);
   for (const double off : {0.05, 0.02, 0.01, 0.005, 0.002, 0.0007})
     for (const double sign : {-1.0, 1.0}) {
       const double moved = std::clamp(share + sign * off, 0.0, 1.0);
-      add({kind, place_at_share(g, face, moved), towards, half_mm});
+      add({kind, place_at(g, face, moved), towards, half_mm});
     }
   if (own == kStep) {
     constexpr double kSharpest = 0.005, kSoftest = 0.05;
@@ -176,7 +164,7 @@ std::vector<FlankCourse> FlankCourse::beside(const FlankGeometry& g, double face
     for (const double longer : {0.7, 1.4}) {
       const double from =
           std::clamp(towards > 0.0 ? 1.0 - longer * length : longer * length, 0.0, 1.0);
-      add({own == kKink ? kBend : kKink, place_at_share(g, face, from), towards});
+      add({own == kKink ? kBend : kKink, place_at(g, face, from), towards});
     }
   }
   return courses;
@@ -186,7 +174,7 @@ std::string FlankCourse::words(const FlankGeometry& g, double face) const {
   const Kind own = kind;
   const std::string where = own == kWhole || own == kSlope || own == kBow || own == kRise
                                 ? ""
-                                : at_place(g, face, mm).substr(3);  // without "at "
+                                : words_of_place(g, face, mm);
   const std::string to = gear_effects::towards(face, towards);
   switch (own) {
     case kWhole:
@@ -352,7 +340,7 @@ std::vector<FlankCourse> courses_over(const FlankGeometry& g, double face) {
   const double range = std::abs(range_mm(g, face));
   std::vector<FlankCourse> courses{{FlankCourse::kSlope}, {FlankCourse::kBow}};
   for (int i = 0; i <= kPlaces; ++i) {
-    const double share = static_cast<double>(i) / kPlaces, place = place_at_share(g, face, share);
+    const double share = static_cast<double>(i) / kPlaces, place = place_at(g, face, share);
     for (const double towards : {-1.0, 1.0}) {
       const double length = towards > 0.0 ? 1.0 - share : share;
       if (i > 0 && i < kPlaces) courses.push_back({FlankCourse::kStep, place, towards});

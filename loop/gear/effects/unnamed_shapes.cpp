@@ -21,8 +21,7 @@ std::vector<EffectShape> places_inside(const FlankGeometry& g, const EffectShape
   constexpr double kEnds = 0.03;
   std::vector<EffectShape> shapes = places_beside(g, shape);
   std::erase_if(shapes, [&](const EffectShape& s) {
-    const double low = end_mm(g, s[0], -1.0), high = end_mm(g, s[0], 1.0);
-    const double share = (stands_at(g, s[0], s[1]) - low) / (high - low);
+    const double share = share_at(g, s[0], s[1]);
     return !(share > kEnds && share < 1.0 - kEnds);
   });
   return shapes;
@@ -161,10 +160,7 @@ EffectFamily unnamed_bend() {
     }
     // Longer ones are nearly a parabola over all of it: a crowning.
     constexpr double kNearest = 0.65;
-    const double low = end_mm(g, shape[0], kTowardsLow), high = end_mm(g, shape[0], kTowardsHigh);
-    std::erase_if(shapes, [&](const EffectShape& s) {
-      return (stands_at(g, s[0], s[1]) - low) / (high - low) < kNearest;
-    });
+    std::erase_if(shapes, [&](const EffectShape& s) { return share_at(g, s[0], s[1]) < kNearest; });
     return shapes;
   };
   f.is_like_many = true;
@@ -378,10 +374,7 @@ EffectFamily unnamed_strip() {
     };
     // (one that reaches an end is a step)
     constexpr double kEnds = 0.06;
-    const double low = end_mm(g, shape[0], -1.0), high = end_mm(g, shape[0], 1.0);
-    const auto share_of = [&](double place_mm) {
-      return (stands_at(g, shape[0], place_mm) - low) / (high - low);
-    };
+    const auto share_of = [&](double place_mm) { return share_at(g, shape[0], place_mm); };
     const auto add = [&](EffectShape beside) {
       const auto [first, last] = std::minmax({share_of(beside[1]), share_of(beside[2])});
       if (first > kEnds && last < 1.0 - kEnds &&

@@ -15,11 +15,7 @@
 #include "trueflank/loop/gear/local/product_cells.h"
 
 namespace trueflank::loop {
-
-using gear_effects::AroundCourse;
-using gear_effects::FlankCourse;
-using namespace product_cells;
-
+namespace product_cells {
 namespace {
 
 /// What a form takes out: the square of its product with the residuals over its own square.
@@ -341,20 +337,21 @@ std::vector<Likely> likeliest_of(const FlankGeometry& g, const std::vector<Pair>
   return forms;
 }
 
-constexpr std::size_t kKinds = 4, kKindsOfAWay = 2;
+constexpr std::size_t kKindsOfAll = 4, kKindsOfAWay = 2;
 
 }  // namespace
+}  // namespace product_cells
 
 struct LikeliestProducts::Cells {
   Cells(const FlankGeometry& g, const Observations& table, const Patches& patches,
         const std::vector<float>& row_um)
       : geometry(g),
         scan(!table.points_mm.empty()),
-        teeth(sums_of(g, table, patches, row_um)),
-        profiles(in_cells(g, 0.0)),
-        faces(in_cells(g, 1.0)),
-        ways(flank_ways(g)) {
-    CourseInCells whole;
+        teeth(product_cells::sums_of(g, table, patches, row_um)),
+        profiles(product_cells::in_cells(g, 0.0)),
+        faces(product_cells::in_cells(g, 1.0)),
+        ways(product_cells::flank_ways(g)) {
+    product_cells::CourseInCells whole;
     whole.values.fill(1.0);
     profiles.push_back(whole);
     faces.push_back(whole);
@@ -362,9 +359,9 @@ struct LikeliestProducts::Cells {
 
   const FlankGeometry& geometry;
   bool scan;
-  OfTeeth teeth;
-  std::vector<CourseInCells> profiles, faces;  ///< the last of each is whole
-  std::array<FlankWay, 4> ways;
+  product_cells::OfTeeth teeth;
+  std::vector<product_cells::CourseInCells> profiles, faces;  ///< the last of each is whole
+  std::array<product_cells::FlankWay, 4> ways;
 };
 
 LikeliestProducts::LikeliestProducts(const FlankGeometry& geometry, const Observations& table,
@@ -374,18 +371,20 @@ LikeliestProducts::LikeliestProducts(const FlankGeometry& geometry, const Observ
 double LikeliestProducts::square() const {
   double square = 0.0;
   for (const auto& tooth : cells_->teeth)
-    for (const OfFlank& flank : tooth) square += flank.square;
+    for (const product_cells::OfFlank& flank : tooth) square += flank.square;
   return square;
 }
 
 std::vector<LikelyForms> LikeliestProducts::same_on_every_tooth() const {
+  using namespace product_cells;
   const auto& [g, scan, teeth, profiles, faces, ways] = *cells_;
   if (!scan) return {};
   return best_of(likeliest_of(g, pairs_of(teeth, profiles, faces, ways), profiles, faces, ways),
-                 kKinds);
+                 kKindsOfAll);
 }
 
 LikeliestProducts::BesideNames LikeliestProducts::beside_names() const {
+  using namespace product_cells;
   const auto& [g, scan, teeth, profiles, faces, ways] = *cells_;
   if (!scan) return {};
   std::array<OverFlank, 2> mean{};
@@ -395,11 +394,12 @@ LikeliestProducts::BesideNames LikeliestProducts::beside_names() const {
         for (std::size_t v = 0; v < kProductCells; ++v) mean[side][u][v] += group[side][u][v];
   const std::array names{SumsOfNames(mean[0]), SumsOfNames(mean[1])};
   const std::vector<Pair> pairs = pairs_beside_names(mean, names, profiles, faces, ways);
-  return {best_of(likeliest_of(g, pairs, profiles, faces, ways), kKinds),
+  return {best_of(likeliest_of(g, pairs, profiles, faces, ways), kKindsOfAll),
           square() - names[0].square() - names[1].square()};
 }
 
 std::vector<LikelyForms> LikeliestProducts::around_the_gear() const {
+  using namespace product_cells;
   const auto& [g, scan, teeth, profiles, faces, ways] = *cells_;
   const Arounds arounds = arounds_of(g);
   const auto likely = [&](const FlankCourse& profile, const FlankCourse& face, const FlankWay& way,
@@ -444,7 +444,8 @@ std::vector<LikelyForms> LikeliestProducts::around_the_gear() const {
 
 std::vector<LikelyForms> LikeliestProducts::waves() const {
   const auto& [g, scan, teeth, profiles, faces, ways] = *cells_;
-  return likeliest_waves(g, teeth, profiles, faces, arounds_of(g), scan);
+  return product_cells::likeliest_waves(g, teeth, profiles, faces, product_cells::arounds_of(g),
+                                        scan);
 }
 
 }  // namespace trueflank::loop

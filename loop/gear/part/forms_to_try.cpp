@@ -5,17 +5,13 @@
 #include <utility>
 
 #include "trueflank/base/units.h"
+#include "trueflank/loop/gear/effects/along_flank.h"
 
 namespace trueflank::loop {
 
-namespace {
+using gear_effects::place_at;
 
-/// A height, or over the profile a diameter [mm], at a share of the flank.
-double place_at(const FlankGeometry& geometry, double face, double share) {
-  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
-  return face != 0.0 ? share * geometry.face_width_mm()
-                     : 2.0 * geometry.on_flank(1, 1, low + share * (high - low), 0.0).radius_mm;
-}
+namespace {
 
 /// What dies away from both ends alike: a bell mouth. Longer ones are nearly a crowning.
 std::vector<Effect> rises_at_both_ends(const FlankGeometry& geometry, double face,

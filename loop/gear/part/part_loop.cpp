@@ -47,6 +47,7 @@ void PartLoop::forget_fits() {
   plain_fit_.reset();
   plain_um_.reset();
   sought_.clear();
+  no_products_in_.clear();
   names_ = {};
 }
 

@@ -116,9 +116,7 @@ class PartLoop {
                                                        double& p_value) const;
   [[nodiscard]] std::vector<Effect> with_sections_aside(std::vector<std::size_t>& these) const;
   [[nodiscard]] std::vector<Effect> with_one_side(std::vector<std::size_t>& these) const;
-  [[nodiscard]] std::vector<Effect> common_names_beside(const std::vector<Effect>& others) const;
-  [[nodiscard]] std::vector<std::size_t> pieces_of(const Effect& form,
-                                                   const std::vector<std::size_t>& these) const;
+  class Products;
   [[nodiscard]] std::vector<Effect> with_products(std::vector<std::size_t>& these) const;
   [[nodiscard]] std::vector<Effect> with_reversal(std::vector<std::size_t>& these) const;
   [[nodiscard]] std::vector<Effect> with_phase_of_each_flank(std::vector<std::size_t>& these) const;
@@ -321,7 +319,6 @@ class PartLoop {
       discovery_;  ///< chosen: in the order of effects_; group -1: not of the candidates
   std::vector<Effect> effects_;
   std::vector<Effect> left_beside_;  ///< beside which the test of what is left was made
-  mutable std::vector<Effect> no_products_in_;  ///< for which no product stands
   SharedByNeighbours neighbours_;
   bool vetoed_ = false;                ///< effects were taken back
   std::optional<Effect> denied_spot_;  ///< one of them, though it stands out beyond doubt
@@ -346,6 +343,7 @@ class PartLoop {
     std::vector<Effect> found;
   };
   mutable std::deque<SoughtForm> sought_;               ///< the last one last
+  mutable std::vector<Effect> no_products_in_;          ///< for which no product stands
   std::shared_ptr<const std::vector<float>> plain_um_;  ///< what it leaves, where it was looked at
   /// A form and the names it was compared with; while forms are compared one after the other, and
   /// until the columns of candidates are made.
