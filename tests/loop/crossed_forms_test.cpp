@@ -72,6 +72,31 @@ TEST(CrossedForm, OfOneSideOfTheGearIsOneForm) {
                {"on the teeth towards 11", "none on the other half", "dying away from the root"});
 }
 
+// A crowning takes up what is alike on all teeth: what is left is more like a wave.
+TEST(CrossedForm, OfOneSideStandsBesideABow) {
+  const auto result = scanned_with(
+      spur(30), grown([](const MadeGear& g, const FlankSpot& s, auto&) {
+        return 9.0 * std::exp(-up(s.u) / 0.2) * std::max(0.0, std::cos(centre_rad(g, s) - 2.0)) -
+               6.0 * s.v * s.v - 8.0 * s.u * s.u;
+      }),
+      21);
+  EXPECT_TRUE(tells_of(result, "none on the other half, dying away from the root")) << list(result);
+  EXPECT_NE(find(result, "crowning"), nullptr) << list(result);
+}
+
+// Waves that march stand beside it: they are no pieces of it.
+TEST(CrossedForm, OfSomeTeethStandsBesideWavesWithoutAName) {
+  const auto result =
+      scanned_with(spur(34), grown([](const MadeGear& g, const FlankSpot& s, auto&) {
+                     const bool some = s.tooth >= 20 && s.tooth <= 32;
+                     const double march = 13.0 * centre_rad(g, s) - 3.0 * M_PI * s.u;
+                     return (some ? -30.0 * above(up(s.u), 0.5) * above(up(s.v), 0.5) : 0.0) +
+                            (s.side > 0 ? 9.0 * std::cos(march) : 7.0 * std::cos(march + 1.0));
+                   }),
+                   22);
+  EXPECT_TRUE(tells_of(result, "on 13 teeth from tooth 20 on, more and more")) << list(result);
+}
+
 TEST(CrossedForm, OfTracesOfOneSideIsOneForm) {
   const MadeGear gear = spur(24);
   std::vector<int> teeth;
