@@ -10,7 +10,11 @@
 #include "trueflank/loop/gear/iso_1328.h"
 #include "trueflank/loop/gear/local/loud_places.h"
 #include "trueflank/loop/gear/orders_alike.h"
+#include "trueflank/loop/gear/part/bans.h"
+#include "trueflank/loop/gear/part/odd_forms.h"
 #include "trueflank/loop/gear/part/part_loop.h"
+#include "trueflank/loop/gear/part/records.h"
+#include "trueflank/loop/gear/part/structure_left.h"
 #include "trueflank/loop/gear/part_frame.h"
 #include "trueflank/loop/gear/random_error.h"
 #include "trueflank/loop/gear/several_parts.h"
@@ -70,21 +74,20 @@ bool is_more_than_noise(const LoopResult& result, const RandomError& noise) {
   return result.after.held_out_rms > allowed * noise.held_out_um;
 }
 
-LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const PointFit& fit,
+LoopResult result_of(const FlankGeometry& geometry, const PartModel& model, const PointFit& fit,
                      const std::vector<float>& left_um, Makings makings) {
   LoopResult result;
   result.observations = fit.observations();
   result.held_out = fit.held_out();
-  result.outliers = loop.table().outliers;
+  result.outliers = model.table->outliers;
   const RandomError noise =
-      random_error(geometry, loop.table(), loop.patches(), left_um, loop.what_is_left());
+      random_error(geometry, model.table, model.patches, left_um, what_is_left(model));
   result.noise = noise.um;
-  result.notes = loop.table().notes;
-  for (std::string& note :
-       notes_on(still_louder(geometry, loop.table(), loop.patches(), left_um)))
+  result.notes = model.table->notes;
+  for (std::string& note : notes_on(still_louder(geometry, model.table, model.patches, left_um)))
     result.notes.push_back(std::move(note));
-  const auto none = loop.plain_fit()->errors({});
-  const auto all = fit.errors(std::vector<bool>(loop.effects().size(), true));
+  const auto none = plain_fit(model)->errors({});
+  const auto all = fit.errors(std::vector<bool>(model.effects.size(), true));
   result.before = {none.rms_um, none.held_out_rms_um, 0.0};
   // One form of either flank: more of them would follow held-out values whatever these are.
   constexpr std::size_t kMostFittedThere = 2;
@@ -96,29 +99,37 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
     result.notes.push_back(
         "the error on held-out data is counted beside what held-out values alone show, such as a "
         "form of one held-out tooth: no other value can foretell it");
-  result.not_observable = loop.not_observable();
-  result.structure_p_value = loop.discovery().first_p_value;
-  result.structure_left_p_value = loop.structure_left_p_value();
-  result.structure_left = loop.structure_left();
+  result.not_observable = not_observable(model);
+  result.structure_p_value = model.discovery.first_p_value;
+  result.structure_left_p_value = structure_left_p_value(model);
+  result.structure_left = structure_left(model);
   ShapeUncertainty uncertainty =
-      shape_uncertainty(geometry, loop.table(), loop.patches(), fit, FreeShapes::kAll);
-  uncertainty.otherwise = loop.without_means_of_waves(fit);
-  result.effects = describe_effects({geometry, fit, loop.discovery(), loop.candidates(), uncertainty,
-                                     result.not_observable, makings, loop.unseen(),
-                                     explained_by(result.before, result.after), {}, &loop.table()});
-  say_where_records_differ(loop.alone(), result);
+      shape_uncertainty(geometry, model.table, model.patches, fit, FreeShapes::kAll);
+  uncertainty.otherwise = without_means_of_waves(model, fit);
+  result.effects = describe_effects({geometry,
+                                     fit,
+                                     model.discovery,
+                                     model.candidates,
+                                     uncertainty,
+                                     result.not_observable,
+                                     makings,
+                                     model.unseen,
+                                     explained_by(result.before, result.after),
+                                     {},
+                                     model.table.operator->()});
+  say_where_records_differ(model.alone, result);
   result.measure_next = measurements_that_separate(result.effects, result.not_observable);
-  for (int e = 0; e < static_cast<int>(loop.effects().size()); ++e)
-    if (!orders_alike(geometry, loop.table(), fit, e).empty()) {
+  for (int e = 0; e < static_cast<int>(model.effects.size()); ++e)
+    if (!orders_alike(geometry, model.table, fit, e).empty()) {
       result.measure_next.emplace_back(
           "trace more teeth, best all of them: those traced do not show whether what is found is "
           "alike on all teeth or comes in waves around the gear");
       break;
     }
-  if (loop.structure_is_left())
+  if (structure_is_left(model))
     result.verdict = Verdict::kPartlyExplained;
   else
-    result.verdict = loop.effects().empty() ? Verdict::kNoEffect : Verdict::kExplained;
+    result.verdict = model.effects.empty() ? Verdict::kNoEffect : Verdict::kExplained;
   if (result.verdict != Verdict::kPartlyExplained && is_more_than_noise(result, noise)) {
     result.verdict = Verdict::kPartlyExplained;
     const bool any_held_out = result.held_out > 0;
@@ -133,16 +144,17 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
 
 GearLoop close_one(const FlankGeometry& geometry, const std::string& gear_name, SharedTable table,
                    const LoopOptions& options) {
-  PartLoop loop(geometry, std::move(table), {.declared = options.declared, .makings = options.makings});
-  loop.run();
-  const auto fit = loop.fit_of(loop.effects());
-  std::vector<float> before_um = loop.plain_fit()->residuals_without_effects_um();
+  PartModel model(geometry, std::move(table),
+                  {.declared = options.declared, .makings = options.makings});
+  explain_part(model);
+  const auto fit = fit_of(model, model.effects);
+  std::vector<float> before_um = plain_fit(model)->residuals_without_effects_um();
   std::vector<float> after_um = *fit->residuals_um();
-  GearLoop done{result_of(geometry, loop, *fit, after_um, options.makings), geometry, {}, {}, {}};
+  GearLoop done{result_of(geometry, model, *fit, after_um, options.makings), geometry, {}, {}, {}};
   done.result.gear = gear_name;
   done.before_um = std::move(before_um);
   done.after_um = std::move(after_um);
-  done.table = std::move(loop).take_table();
+  done.table = std::move(model.table).taken();
   find_largest_errors(done);
   const Iso1328 iso = iso_1328(done);
   done.result.iso_1328 = inspection_figures(iso);

@@ -8,7 +8,9 @@
 #include "trueflank/base/contract.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/gear/found_effects.h"
+#include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/part_loop.h"
+#include "trueflank/loop/gear/part/structure_left.h"
 #include "trueflank/loop/gear/shape_refinement.h"
 
 namespace trueflank::loop {
@@ -70,37 +72,35 @@ class PartsLoop {
     std::vector<const Observations*> tables;
     for (const PartTable& part : parts_) tables.push_back(part.table.operator->());
     const int tests = count() + 1;
-    together_ = std::make_unique<PartLoop>(
-        geometry_, joined_table(tables),
-        PartLoop::Options{.declared = options_.declared,
-                          .makings = options_.makings,
-                          .joined = true,
-                          .tables = tests});
-    together_->run();
+    together_ = std::make_unique<PartModel>(geometry_, joined_table(tables),
+                                            PartOptions{.declared = options_.declared,
+                                                        .makings = options_.makings,
+                                                        .joined = true,
+                                                        .tables = tests});
+    explain_part(*together_);
     add_members(*together_, 0, -1);
-    const std::vector<Effect> given = together_->effects();
+    const std::vector<Effect> given = together_->effects;
     for (int p = 0; p < count(); ++p) {
-      each_.push_back(std::make_unique<PartLoop>(
-          geometry_, std::move(parts_[p].table),
-          PartLoop::Options{.declared = options_.declared,
-                            .makings = options_.makings,
-                            .given = given,
-                            .tables = tests}));
-      each_.back()->run();
+      each_.push_back(std::make_unique<PartModel>(geometry_, std::move(parts_[p].table),
+                                                  PartOptions{.declared = options_.declared,
+                                                              .makings = options_.makings,
+                                                              .given = given,
+                                                              .tables = tests}));
+      explain_part(*each_.back());
       add_members(*each_.back(), given.size(), p);
     }
   }
 
-  void add_members(const PartLoop& loop, std::size_t from, int part) {
-    for (std::size_t i = from; i < loop.effects().size(); ++i) {
-      const Effect& effect = loop.effects()[i];
+  void add_members(const PartModel& model, std::size_t from, int part) {
+    for (std::size_t i = from; i < model.effects.size(); ++i) {
+      const Effect& effect = model.effects[i];
       const bool known = std::any_of(members_.begin(), members_.end(), [&](const Member& m) {
         return same_effect(m.effect, effect);
       });
       if (known) continue;
       Member member;
       member.effect = effect;
-      member.record = loop.discovery().chosen[i];
+      member.record = model.discovery.chosen[i];
       member.found_on = part;
       members_.push_back(std::move(member));
     }
@@ -113,7 +113,7 @@ class PartsLoop {
     sizes_.assign(members_.size(), {});
     spreads_.assign(members_.size(), std::vector<Eigen::MatrixXd>(parts_.size()));
     for (int p = 0; p < count(); ++p) {
-      const PointFit fit(geometry_, each_[p]->table(), each_[p]->patches(), all);
+      const PointFit fit(geometry_, each_[p]->table, each_[p]->patches, all);
       for (std::size_t m = 0; m < members_.size(); ++m) {
         const int first = fit.first_column(static_cast<int>(m)), columns = all[m].columns();
         bool seen = true, stands_out = false;
@@ -168,7 +168,7 @@ class PartsLoop {
   }
 
   void describe(LoopResult& result) const {
-    result.not_observable = together_->not_observable();
+    result.not_observable = not_observable(*together_);
     std::vector<Effect> repeatable;
     DiscoveryResult records;
     std::vector<int> numbers;
@@ -178,12 +178,11 @@ class PartsLoop {
       records.chosen.push_back(members_[m].record);
       numbers.push_back(m);
     }
-    const PointFit fit(geometry_, together_->table(), together_->patches(), repeatable);
-    const auto spread = shape_uncertainty(geometry_, together_->table(), together_->patches(), fit,
-                                          FreeShapes::kAll);
-    auto found = describe_effects(
-        {geometry_, fit, records, together_->candidates(), spread, result.not_observable,
-         options_.makings, together_->unseen()});
+    const PointFit fit(geometry_, together_->table, together_->patches, repeatable);
+    const auto spread =
+        shape_uncertainty(geometry_, together_->table, together_->patches, fit, FreeShapes::kAll);
+    auto found = describe_effects({geometry_, fit, records, together_->candidates, spread,
+                                   result.not_observable, options_.makings, together_->unseen});
     for (FoundEffect& effect : found) add_parts(effect, numbers);
     result.effects = std::move(found);
     for (int p = 0; p < count(); ++p) describe_one_offs(p, result);
@@ -219,7 +218,7 @@ class PartsLoop {
   }
 
   void describe_one_offs(int part, LoopResult& result) const {
-    const PartLoop& loop = *each_[part];
+    const PartModel& model = *each_[part];
     std::vector<Effect> effects;
     DiscoveryResult records;
     std::vector<bool> only;
@@ -229,11 +228,12 @@ class PartsLoop {
       only.push_back(!members_[m].repeats);
     }
     if (std::none_of(only.begin(), only.end(), [](bool one) { return one; })) return;
-    const PointFit fit(geometry_, loop.table(), loop.patches(), effects);
+    const PointFit fit(geometry_, model.table, model.patches, effects);
     const auto spread =
-        shape_uncertainty(geometry_, loop.table(), loop.patches(), fit, FreeShapes::kAll);
-    for (FoundEffect& found : describe_effects({geometry_, fit, records, loop.candidates(), spread,
-                                                result.not_observable, options_.makings, loop.unseen(), kNaN, only})) {
+        shape_uncertainty(geometry_, model.table, model.patches, fit, FreeShapes::kAll);
+    for (FoundEffect& found :
+         describe_effects({geometry_, fit, records, model.candidates, spread, result.not_observable,
+                           options_.makings, model.unseen, kNaN, only})) {
       found.repeatable = false;
       found.correctable = false;
       found.part = parts_[part].name;
@@ -251,12 +251,12 @@ class PartsLoop {
     Sum as_designed, explained, new_before, new_after, noise;
     Sum held_before, held_after;
     for (int p = 0; p < count(); ++p) {
-      const PartLoop& loop = *each_[p];
+      const PartModel& model = *each_[p];
       std::vector<Effect> effects;
       for (const int m : members_on(p)) effects.push_back(members_[m].effect);
-      const auto plain_fit = loop.plain_fit();
-      const PointFit& none = *plain_fit;
-      const PointFit fit(geometry_, loop.table(), loop.patches(), effects);
+      const auto without = plain_fit(model);
+      const PointFit& none = *without;
+      const PointFit fit(geometry_, model.table, model.patches, effects);
       const auto plain = none.errors({}), full = fit.errors(std::vector<bool>(effects.size(), true));
       const double n = fit.observations(), held = fit.held_out();
       as_designed.add(plain.rms_um, n);
@@ -268,21 +268,21 @@ class PartsLoop {
       new_after.add(error_under_the_others(p), n);
       result.observations += fit.observations();
       result.held_out += fit.held_out();
-      result.outliers += loop.table().outliers;
+      result.outliers += model.table->outliers;
       result.parts.push_back({parts_[p].name, fit.observations(),
                               {plain.rms_um, plain.held_out_rms_um, 0.0},
                               {full.rms_um, full.held_out_rms_um, 0.0}});
-      for (const std::string& note : loop.table().notes)
+      for (const std::string& note : model.table->notes)
         result.notes.push_back(parts_[p].name + ": " + note);
       before[p] = none.residuals_without_effects_um();
       after[p] = *fit.residuals_um();
       for (std::size_t i = 0; i < after[p].size(); ++i) {
-        if (!counts_as_error(loop.table().rows[i].kind)) continue;
+        if (!counts_as_error(model.table->rows[i].kind)) continue;
         auto& own = result.parts.back();
         own.before.max = std::max(own.before.max, static_cast<double>(std::abs(before[p][i])));
         own.after.max = std::max(own.after.max, static_cast<double>(std::abs(after[p][i])));
       }
-      tables.push_back(&loop.table());
+      tables.push_back(model.table.operator->());
     }
     result.before = {as_designed.root(), held_before.root(), 0.0};
     result.after = {explained.root(), held_after.root(), 0.0};
@@ -314,8 +314,8 @@ class PartsLoop {
       effects.push_back(member.effect);
       given.insert(given.end(), mean.data(), mean.data() + mean.size());
     }
-    const PartLoop& loop = *each_[part];
-    const PointFit fit(geometry_, loop.table(), loop.patches(), effects);
+    const PartModel& model = *each_[part];
+    const PointFit fit(geometry_, model.table, model.patches, effects);
     return fit.rms_with_um(Eigen::Map<const Eigen::VectorXd>(
         given.data(), static_cast<Eigen::Index>(given.size())));
   }
@@ -332,22 +332,22 @@ class PartsLoop {
   }
 
   void verdict(LoopResult& result) const {
-    result.structure_p_value = together_->discovery().first_p_value;
-    result.structure_left_p_value = together_->discovery().p_left;
-    result.structure_left = together_->structure_left();
-    bool left = together_->structure_is_left();
+    result.structure_p_value = together_->discovery.first_p_value;
+    result.structure_left_p_value = together_->discovery.p_left;
+    result.structure_left = structure_left(*together_);
+    bool left = structure_is_left(*together_);
     for (int p = 0; p < count(); ++p) {
       result.structure_p_value =
-          std::min(result.structure_p_value, each_[p]->discovery().first_p_value * (count() + 1));
+          std::min(result.structure_p_value, each_[p]->discovery.first_p_value * (count() + 1));
       result.structure_left_p_value =
-          std::min(result.structure_left_p_value, each_[p]->discovery().p_left * (count() + 1));
-      if (each_[p]->structure_is_left() && !left) {
+          std::min(result.structure_left_p_value, each_[p]->discovery.p_left * (count() + 1));
+      if (structure_is_left(*each_[p]) && !left) {
         left = true;
-        result.structure_left = "on part " + parts_[p].name + " " + each_[p]->structure_left();
+        result.structure_left = "on part " + parts_[p].name + " " + structure_left(*each_[p]);
       }
     }
     const bool free = std::any_of(each_.begin(), each_.end(), [](const auto& loop) {
-      const auto& poses = loop->table().pose_is_free;
+      const auto& poses = loop->table->pose_is_free;
       return std::find(poses.begin(), poses.end(), true) != poses.end();
     });
     if (free)
@@ -362,8 +362,8 @@ class PartsLoop {
   const FlankGeometry& geometry_;
   std::vector<PartTable> parts_;
   const LoopOptions& options_;
-  std::unique_ptr<PartLoop> together_;
-  std::vector<std::unique_ptr<PartLoop>> each_;
+  std::unique_ptr<PartModel> together_;
+  std::vector<std::unique_ptr<PartModel>> each_;
   std::vector<Member> members_;
   std::vector<Eigen::VectorXd> sizes_;                  ///< of the columns of each member
   std::vector<std::vector<Eigen::MatrixXd>> spreads_;   ///< covariance of each member on each part

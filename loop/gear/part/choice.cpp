@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/part/choice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/loop/discovery/kept_sums.h"
+#include "trueflank/loop/gear/finite_displacement.h"
+#include "trueflank/loop/gear/part/bans.h"
+#include "trueflank/loop/gear/part/forms_of_runs.h"
+#include "trueflank/loop/gear/plain_rms.h"
+#include "trueflank/loop/gear/shape_refinement.h"
+
+namespace trueflank::loop {
+namespace {
+
+void select(PartModel& model) {
+  model.choice.reset();
+  DiscoveryProblem& problem = candidates_problem(model);
+  const Eigen::Index of_pose = problem.nuisance.cols();
+  if (!model.options.given.empty())
+    add_nuisance(problem,
+                 make_problem(model.geometry, model.table, model.patches, model.options.given));
+  DiscoveryOptions options;
+  options.banned = model.banned;
+  // What no flip reaches is as sure as flips can say.
+  options.next_level = std::max(kNextLevel / model.options.tables, 1.01 / (options.flips + 1.0));
+  // With effects given, something was found already.
+  options.first_level =
+      model.options.given.empty() ? options.first_level / model.options.tables : options.next_level;
+  options.local_level /= model.options.tables;
+  model.choice.emplace(problem, options);
+  model.discovery = model.choice->chosen();
+  problem.nuisance.conservativeResize(Eigen::NoChange, of_pose);
+  if (is_rounding(model)) {
+    model.choice.reset();
+    model.discovery.chosen.clear();
+    model.discovery.first_p_value = model.discovery.first_common_p_value = model.discovery.p_left =
+        1.0;
+  }
+  model.effects = model.options.given;
+  for (const ChosenGroup& chosen : model.discovery.chosen)
+    model.effects.push_back(model.candidates[chosen.group]);
+  ChosenGroup record;
+  record.group = -1;
+  model.discovery.chosen.insert(model.discovery.chosen.begin(), model.options.given.size(), record);
+  const std::size_t told = first_told_here(model);
+  for (std::size_t i = 0; i < model.given_p_values.size(); ++i)
+    model.discovery.chosen[told + i].p_value = model.given_p_values[i];
+}
+
+/// What the choice leaves and what it is confounded with, which the rounds before the last are not
+/// asked.
+void finish_choice(PartModel& model) {
+  if (!model.choice) return;
+  const DiscoveryResult told = std::move(*model.choice).finished();
+  model.choice.reset();
+  model.discovery.p_left = told.p_left;
+  model.discovery.most_likely_left = told.most_likely_left;
+  model.left_beside = model.effects;
+  for (std::size_t i = 0; i < told.chosen.size(); ++i) {
+    ChosenGroup& record = model.discovery.chosen[model.options.given.size() + i];
+    record.bic_gain = told.chosen[i].bic_gain;
+    record.confounded = told.chosen[i].confounded;
+  }
+}
+
+/// True where a shape moved noticeably.
+bool put_refined_shapes_on_the_grid(PartModel& model) {
+  const std::vector<Effect> chosen = model.effects;
+  // What one moves to another makes room for: both in turn until neither moves.
+  constexpr int kMostTurns = 8;
+  if (can_be_refined(model.effects, model.options.given.size())) {
+    TrialFit fit = fit_to_refine(model.geometry, model.table, model.patches, model.effects);
+    for (int turn = 0; turn < kMostTurns; ++turn) {
+      refine_shapes(model.geometry, model.options.given.size(), fit);
+      if (!refine_nearby(model.geometry, fit)) break;
+    }
+    model.effects = fit.effects();
+  }
+  std::copy_n(model.effects.begin(), model.options.given.size(), model.options.given.begin());
+  leave_out_across_steps(model);
+  bool moved = false;
+  for (std::size_t i = model.options.given.size(); i < model.effects.size(); ++i) {
+    for (std::size_t k = 0; k < model.effects[i].shape.size(); ++k)
+      moved = moved || std::abs(model.effects[i].shape[k] - chosen[i].shape[k]) >
+                           3e-3 * std::abs(chosen[i].shape[k]);
+    model.candidates[model.discovery.chosen[i].group].shape = model.effects[i].shape;
+  }
+  return moved;
+}
+
+/// Ways to move that differ only where points went far: the one that leaves least beside the
+/// effects that move none. (Others that move the teeth, a scale, make up for what the wrong way
+/// leaves.)
+void choose_motions(PartModel& model) {
+  constexpr double kClearly = 9.0;  // chi-square
+  for (std::size_t e = model.options.given.size(); e < model.effects.size(); ++e) {
+    const EffectFamily& family = *model.effects[e].family;
+    if (!family.other_motions) continue;
+    const auto left_with = [&](const EffectShape& shape) {
+      std::vector<Effect> all = model.effects, alone;
+      all[e].shape = shape;
+      for (std::size_t i = 0; i < all.size(); ++i)
+        if (i == e || !all[i].family->displacement_mm) alone.push_back(all[i]);
+      Observations moved = model.table;
+      linearise_at(model.geometry, PointFit(model.geometry, model.table, model.patches, all),
+                   moved);
+      return PointFit(model.geometry, moved, model.patches, alone).residual_square();
+    };
+    double least = kNaN;
+    for (const EffectShape& other : family.other_motions(model.geometry, model.effects[e].shape)) {
+      if (std::isnan(least)) least = left_with(model.effects[e].shape) - kClearly;
+      const double left = left_with(other);
+      if (!(left < least)) continue;
+      least = left;
+      model.candidates[model.discovery.chosen[e].group].shape = model.effects[e].shape = other;
+    }
+  }
+}
+
+/// True where scans lie otherwise beside the effects than without them.
+bool settle_poses_of_scans(PartModel& model) {
+  const std::vector<bool>& free = model.table->pose_is_free;
+  if (model.effects.empty() || std::find(free.begin(), free.end(), true) == free.end())
+    return false;
+  const std::vector<Pose> by =
+      poses_beside(model.geometry, *fit_of(model, model.effects), model.table);
+  if (by.empty()) return false;
+  move_scans(model.geometry, by, model.table.own());
+  forget_fits(model);
+  divide_into_patches(model);
+  leave_out_across_steps(model);
+  return true;
+}
+
+/// True where finite displacements changed the deviations by more than the noise can hide, or are
+/// taken back.
+bool linearise(PartModel& model) {
+  if (!moves_points(model)) return put_points_back(model);
+  if (model.table->points_mm.empty()) return false;
+  choose_motions(model);
+  const auto fit = fit_of(model, model.effects);
+  const double noticed_um = 0.02 * fit->noise_um();
+  // Displacements are smooth: where a sample moves by less than half of that, no point moves by
+  // more.
+  if (model.table->is_displaced &&
+      change_of_sample_um(model.geometry, *fit, model.table) < 0.5 * noticed_um)
+    return false;
+  const double change = linearise_at(model.geometry, *fit, model.table.own());
+  forget_fits(model);
+  if (!(change > noticed_um)) return false;
+  divide_into_patches(model);
+  leave_out_across_steps(model);
+  return true;
+}
+
+}  // namespace
+
+void explain(PartModel& model) {
+  constexpr int kRounds = 5;
+  for (int round = 0; round < kRounds; ++round) {
+    select(model);
+
+    // Of a scan the sums that are kept for the rest take memory; after the last round they go with
+    // the patches.
+    if (!model.table->points_mm.empty() || round + 1 == kRounds) finish_choice(model);
+    // Off the grid: the choice is made again with the shapes that fit, so that what a coarse
+    // shape leaves is not taken for another effect.
+    bool again = put_refined_shapes_on_the_grid(model);
+    again = ban_misnamed(model) || again;
+    again = settle_poses_of_scans(model) || linearise(model) || again;
+    if (!again) break;
+  }
+  finish_choice(model);
+}
+
+bool is_rounding(const PartModel& model) {
+  constexpr double kFileRounding_um = 0.01, kClearly = 1.1;
+  if (least_plain_rms_um(model.geometry, model.table, model.patches) > kClearly * kFileRounding_um)
+    return false;
+  const auto plain = plain_fit(model);
+  return plain->observations() > 0 && plain->errors({}).rms_um < kFileRounding_um;
+}
+
+void add_nuisance(DiscoveryProblem& problem, const DiscoveryProblem& fitted) {
+  const auto before = problem.nuisance.cols();
+  problem.nuisance.conservativeResize(Eigen::NoChange, before + fitted.candidates.cols());
+  problem.nuisance.rightCols(fitted.candidates.cols()) = fitted.candidates.cast<double>();
+}
+
+DiscoveryProblem& candidates_problem(PartModel& model) {
+  if (model.problem.groups.empty()) {
+    const KnownColumns known{model.names_of, model.names};
+    model.problem = make_problem(model.geometry, model.table, model.patches, model.candidates,
+                                 model.names.groups.empty() ? nullptr : &known);
+    // (Of large scans, chosen for in a few rounds, what a point takes of memory counts.)
+    constexpr std::size_t kMostPoints = 100'000;
+    if (model.table->points_mm.size() <= kMostPoints)
+      model.problem.kept = std::make_shared<KeptSums>();
+  } else {
+    set_candidates(model.geometry, model.patches, model.problem_of, model.candidates,
+                   model.problem);
+    for (std::size_t i = 0; i < model.patches.patches.size(); ++i)
+      model.problem.weight[static_cast<Eigen::Index>(i)] = model.patches.patches[i].weight;
+  }
+  model.names = {};
+  model.problem_of = model.candidates;
+  return model.problem;
+}
+
+void ask_what_is_left(PartModel& model) {
+  if (model.effects.empty()) return;
+  DiscoveryProblem& problem = candidates_problem(model);
+  const Eigen::Index of_pose = problem.nuisance.cols();
+  add_nuisance(problem, make_problem(model.geometry, model.table, model.patches, model.effects));
+  DiscoveryOptions options;
+  options.most_effects = 0;
+  options.banned = model.banned;
+  const DiscoveryResult asked = discover(problem, options);
+  problem.nuisance.conservativeResize(Eigen::NoChange, of_pose);
+  model.problem = {};
+  model.discovery.p_left = asked.p_left;
+  model.discovery.most_likely_left = asked.most_likely_left;
+  model.left_beside = model.effects;
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "trueflank/loop/gear/part/part_model.h"
+
+namespace trueflank::loop {
+
+/// Chooses until neither shapes nor places nor poses move any more, some rounds.
+void explain(PartModel& model);
+/// What is smaller than the rounding of 32-bit mesh files is no finding, however regular it is.
+[[nodiscard]] bool is_rounding(const PartModel& model);
+/// Columns of candidates that stayed as they were are kept.
+[[nodiscard]] DiscoveryProblem& candidates_problem(PartModel& model);
+/// Adds columns of effects that are fitted whatever is selected.
+void add_nuisance(DiscoveryProblem& problem, const DiscoveryProblem& fitted);
+/// What the choice left may be gone since other effects stand in its place: the test is made again
+/// beside these.
+void ask_what_is_left(PartModel& model);
+
+}  // namespace trueflank::loop

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "trueflank/loop/gear/part/part_model.h"
+
+namespace trueflank::loop {
+
+/// Sets of what is told: all that is the same on every tooth, and that less each name, and less all
+/// names; empty where nothing of it runs over profile and face at once, or it has fewer values.
+[[nodiscard]] std::vector<std::vector<std::size_t>> crossed_sets(const PartModel& model,
+                                                                 int fewest_values);
+/// A corner of the flanks of one side, or of both, for all that is the same on every tooth: slopes
+/// of both flanks, alike and opposite, are one of one side. A name may stand beside it.
+[[nodiscard]] bool tell_as_corner(PartModel& model);
+/// What grows over the profile times over the face, for two or more that are the same on every
+/// tooth: a taper, a twist and a bow of a cure that reaches less far down.
+[[nodiscard]] bool tell_as_product(PartModel& model);
+
+}  // namespace trueflank::loop

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What rises evenly once around: what waves around the gear are made of.
+#include "trueflank/loop/gear/part/drifts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "trueflank/loop/gear/part/forms_to_try.h"
+#include "trueflank/loop/gear/part/one_form.h"
+#include "trueflank/loop/gear/part/part_model.h"
+#include "trueflank/loop/gear/part/runs_along.h"
+#include "trueflank/loop/gear/remainder_around.h"
+
+namespace trueflank::loop {
+namespace {
+
+bool has_course(const Effect& effect, std::size_t k, const CourseOverFlanks& course) {
+  return effect.shape[k] == course.profile && effect.shape[k + 1] == course.face;
+}
+
+/// A wave around the gear of the course, or where that is none one that has a name.
+bool is_wave_of(const Effect& effect, const CourseOverFlanks& course) {
+  if (!(effect.order() > 0.0) || effect.family->tells_order_along_profile ||
+      effect.family->displacement_mm)
+    return false;
+  if (effect.family == find_family("unnamed")) return has_course(effect, 0, course);
+  const NeedsToBeSeen needs = effect.needs();
+  return course.profile == 0.0 && course.face == 0.0 && effect.family->doubt_share > 0.0 &&
+         !needs.along_profile && !needs.along_face;
+}
+
+/// The same on every tooth and of that course: the mean of what drifts to nothing.
+bool is_level_of(const FlankGeometry& geometry, const Effect& effect,
+                 const CourseOverFlanks& course) {
+  constexpr double kAlike = 0.99;
+  if (effect.columns() != 1 || effect.order() != 0.0 || effect.family->local ||
+      runs_of(geometry, effect, Flanks::kOfEither) == Runs::kOtherwise)
+    return false;
+  const Eigen::VectorXd own = over_a_tooth(geometry, effect).col(0);
+  for (const double opposite : {0.0, 1.0}) {
+    const Effect form{
+        find_family("unnamed"), effect.flank, {course.profile, course.face, 0.0, opposite}};
+    const Eigen::VectorXd level = over_a_tooth(geometry, form).col(0);
+    if (std::abs(own.dot(level)) > kAlike * own.norm() * level.norm()) return true;
+  }
+  return false;
+}
+
+/// Some neighbours that stand out or aside are the beginning of what levels off.
+bool is_sector_of(const Effect& effect, const CourseOverFlanks& course) {
+  return (effect.family == find_family("unnamed_sector") && has_course(effect, 2, course)) ||
+         (effect.family == find_family("unnamed_moved_sector") && course.profile == 0.0 &&
+          course.face == 0.0);
+}
+
+/// Single teeth of it are its beginning, too.
+bool is_tooth_of(const Effect& effect, const CourseOverFlanks& course) {
+  return effect.family == find_family("unnamed_tooth_form") && has_course(effect, 1, course);
+}
+
+bool is_ramp_of(const Effect& effect, const CourseOverFlanks& course) {
+  return (effect.family == find_family("unnamed_ramp") ||
+          effect.family == find_family("unnamed_levelling")) &&
+         has_course(effect, 1, course);
+}
+
+/// How a drift goes on: evenly, or most of it within some teeth of its beginning or end.
+struct Pace {
+  bool grows = false;
+  double within_teeth = 0.0;  ///< 0: evenly
+};
+
+/// Where drifts of a pace begin that follow these values best, the best few first; none where none
+/// follows most of them.
+std::vector<std::pair<double, int>> likeliest_beginnings(const Eigen::VectorXd& values,
+                                                         const Pace& pace) {
+  constexpr std::size_t kFew = 3;
+  constexpr double kMost = 0.6;  // of their squares: a ramp's first wave alone
+  const Eigen::Index z = values.size();
+  const Eigen::VectorXd about_mean = values.array() - values.mean();
+  Eigen::VectorXd drift = Eigen::VectorXd::LinSpaced(z, 0.0, static_cast<double>(z - 1));
+  if (pace.within_teeth > 0.0) drift = (-drift / pace.within_teeth).array().exp();
+  if (pace.grows) drift.reverseInPlace();
+  drift.array() -= drift.mean();
+  const double squares = drift.squaredNorm() * about_mean.squaredNorm();
+  std::vector<std::pair<double, int>> products;
+  for (Eigen::Index first = 0; first < z; ++first) {
+    double product = 0.0;
+    for (Eigen::Index k = 0; k < z; ++k) product += about_mean[(first + k) % z] * drift[k];
+    if (product * product > kMost * squares)
+      products.emplace_back(-product * product / squares, static_cast<int>(first) + 1);
+  }
+  std::sort(products.begin(), products.end());
+  if (products.size() > kFew) products.resize(kFew);
+  return products;
+}
+
+/// Drifts that are no even ramp and follow these values best, the best few first.
+std::vector<std::pair<Pace, int>> likeliest_uneven(const Eigen::VectorXd& values) {
+  constexpr std::size_t kFew = 4;
+  std::vector<std::pair<std::pair<double, int>, Pace>> found;
+  for (const double share : {0.06, 0.12, 0.25, 0.5})
+    for (const bool grows : {false, true}) {
+      const Pace pace{grows, share * static_cast<double>(values.size())};
+      for (const std::pair<double, int>& one : likeliest_beginnings(values, pace))
+        found.emplace_back(one, pace);
+    }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  if (found.size() > kFew) found.resize(kFew);
+  std::vector<std::pair<Pace, int>> best;
+  for (const auto& [at, pace] : found) best.emplace_back(pace, at.second);
+  return best;
+}
+
+/// The drifts that follow best what these effects say together of every tooth; of one flank, or of
+/// both.
+std::vector<std::vector<Effect>> drifts_in_place_of(PartModel& model,
+                                                    const std::vector<std::size_t>& these,
+                                                    double profile, double face, bool evenly) {
+  constexpr double kNearTheEnd = 0.9;
+  const auto fit = fit_of(model, model.effects);
+  const double low = model.geometry.root_form_roll_mm(), high = model.geometry.tip_form_roll_mm();
+  const double roll =
+      0.5 * (low + high) + (profile != 0.0 ? kNearTheEnd * 0.5 * (high - low) : 0.0);
+  const double z_mm =
+      0.5 * (1.0 + (face != 0.0 ? kNearTheEnd : 0.0)) * model.geometry.face_width_mm();
+  std::array<Eigen::VectorXd, 2> of_side;  // right, left
+  for (const std::size_t side : {0U, 1U}) {
+    of_side[side] = Eigen::VectorXd::Zero(model.geometry.teeth());
+    for (int tooth = 1; tooth <= model.geometry.teeth(); ++tooth) {
+      const Place place = model.geometry.on_flank(tooth, side == 0 ? -1 : 1, roll, z_mm);
+      for (const std::size_t e : these) {
+        std::array<double, 2> columns{};
+        model.effects[e].evaluate(model.geometry, place, columns.data());
+        for (int k = 0; k < model.effects[e].columns(); ++k)
+          of_side[side][tooth - 1] +=
+              columns[static_cast<std::size_t>(k)] *
+              fit->coefficients()[fit->first_column(static_cast<int>(e)) + k];
+      }
+    }
+  }
+  const auto drifts = [&](FlankChoice flank, double opposite, const Eigen::VectorXd& values) {
+    std::vector<Effect> forms;
+    if (evenly)
+      for (const auto& [square, first] : likeliest_beginnings(values, {}))
+        forms.push_back(
+            {find_family("unnamed_ramp"), flank, {double(first), profile, face, opposite}});
+    else
+      for (const auto& [pace, first] : likeliest_uneven(values))
+        forms.push_back(
+            {find_family("unnamed_levelling"),
+             flank,
+             {double(first), profile, face, opposite, pace.grows ? 1.0 : 0.0, pace.within_teeth}});
+    return forms;
+  };
+  const FlankChoice right = flank_choice(model.geometry, 0), left = flank_choice(model.geometry, 1);
+  return {drifts(FlankChoice::kBoth, 0.0, of_side[1] + of_side[0]),
+          drifts(FlankChoice::kBoth, 1.0, of_side[1] - of_side[0]), drifts(left, 0.0, of_side[1]),
+          drifts(right, 0.0, of_side[0])};
+}
+
+}  // namespace
+
+bool tell_as_drift_aside(PartModel& model) {
+  const CourseOverFlanks level;
+  const CourseOverFlanks slope{1.0, 0.0};
+  std::vector<std::size_t> these, moved, sloping;
+  std::set<double> orders;
+  bool begins = false;
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    const Effect& effect = model.effects[e];
+    const bool odd = is_ramp_of(effect, level) || is_sector_of(effect, level) ||
+                     (effect.family == find_family("unnamed_saw") && has_course(effect, 2, level));
+    const bool tooth = effect.family->local && effect.columns() == 1;
+    const bool wave = is_wave_of(effect, level);
+    begins = begins || odd || tooth;
+    if (odd || tooth || wave) these.push_back(e);
+    if (wave) orders.insert(effect.order());
+    if (is_wave_of(effect, slope)) sloping.push_back(e);
+    if (moves_the_teeth(effect)) moved.push_back(e);
+  }
+  // Neighbouring orders are what does not close, too.
+  for (const double order : orders) begins = begins || orders.count(order + 1.0) > 0;
+  if (!begins || these.size() + moved.size() < 2) return false;
+  std::vector<Effect> forms, aside;
+  for (int first = 1; first <= model.geometry.teeth(); ++first) {
+    aside.push_back({find_family("unnamed_drift_aside"), FlankChoice::kBoth, {double(first)}});
+    for (const double opposite : {0.0, 1.0})
+      for (const double periods : {0.5, 1.5, 2.5, 3.5})
+        forms.push_back({find_family("unnamed_broken_wave"),
+                         FlankChoice::kBoth,
+                         {periods, double(first), opposite}});
+  }
+  forms.insert(forms.end(), aside.begin(), aside.end());
+  if (put_one_form_for(model, these, forms)) return true;
+  // What lies off the axis on the whole moves with it.
+  std::vector<Effect> off_axis;
+  for (const std::size_t e : moved) off_axis.push_back(model.effects[e]);
+  for (std::size_t c = 0; off_axis.empty() && c < model.candidates.size(); ++c)
+    if (moves_the_teeth(model.candidates[c]) && model.candidates[c].shape.empty() &&
+        !model.unseen[c])
+      off_axis.push_back(model.candidates[c]);
+  these.insert(these.end(), moved.begin(), moved.end());
+  std::sort(these.begin(), these.end());
+  for (const Effect& effect : off_axis)
+    if (put_one_form_for(model, these, aside, {effect})) return true;
+  // (flanks lean against the direction: it slopes over the profile)
+  if (sloping.empty()) return false;
+  these.insert(these.end(), sloping.begin(), sloping.end());
+  std::sort(these.begin(), these.end());
+  for (const Effect& effect : off_axis)
+    if (put_one_form_for(model, these, aside, {effect})) return true;
+  return false;
+}
+
+bool tell_as_drift(PartModel& model) {
+  for (const CourseOverFlanks& course :
+       {CourseOverFlanks{}, CourseOverFlanks{1.0, 0.0}, CourseOverFlanks{0.0, 1.0},
+        CourseOverFlanks{2.0, 0.0}, CourseOverFlanks{0.0, 2.0}}) {
+    std::vector<std::size_t> waves, teeth, levels;
+    std::set<double> orders;
+    bool drifts = false;
+    for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+      const bool ramp = is_ramp_of(model.effects[e], course),
+                 sector = is_sector_of(model.effects[e], course),
+                 tooth = is_tooth_of(model.effects[e], course);
+      if (ramp || sector || tooth || is_wave_of(model.effects[e], course)) {
+        constexpr double kSector = -1.0, kTooth = -2.0;  // kinds beside orders
+        waves.push_back(e);
+        orders.insert(ramp ? 0.0 : sector ? kSector : tooth ? kTooth : model.effects[e].order());
+        drifts = drifts || ramp;
+      } else if (model.effects[e].family->local && model.effects[e].columns() == 1) {
+        teeth.push_back(e);
+      } else if (is_level_of(model.geometry, model.effects[e], course)) {
+        levels.push_back(e);
+      }
+    }
+    const bool several = orders.size() > 1;
+    if (!several && !(drifts && !levels.empty())) continue;
+    for (const bool evenly : {true, false}) {
+      if (evenly && !several) continue;
+      const std::vector<std::vector<Effect>> forms =
+          drifts_in_place_of(model, waves, course.profile, course.face, evenly);
+      for (const bool with_teeth : {true, false})
+        for (const bool with_levels : {true, false}) {
+          if ((with_teeth && teeth.empty()) || (with_levels && (evenly || levels.empty())))
+            continue;
+          std::vector<std::size_t> these = waves;
+          if (with_teeth) these.insert(these.end(), teeth.begin(), teeth.end());
+          if (with_levels) these.insert(these.end(), levels.begin(), levels.end());
+          std::sort(these.begin(), these.end());
+          for (const std::vector<Effect>& drifts_of : forms)
+            if (!drifts_of.empty() && put_one_form_for(model, these, drifts_of)) return true;
+        }
+    }
+  }
+  return false;
+}
+
+}  // namespace trueflank::loop

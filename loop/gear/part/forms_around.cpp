@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One form from tooth to tooth that values one a tooth (an index, runout) show beside one cause
+// with a name: waves around the gear, chosen first, would take up parts of both.
+#include "trueflank/loop/gear/part/forms_around.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/gear/fit/trial_fit.h"
+#include "trueflank/loop/gear/part/forms_to_try.h"
+#include "trueflank/loop/gear/part/one_form.h"
+#include "trueflank/loop/gear/part/part_loop.h"
+#include "trueflank/loop/gear/part/part_model.h"
+#include "trueflank/loop/gear/part/runs_along.h"
+#include "trueflank/loop/gear/part/tidying.h"
+#include "trueflank/loop/gear/remainder_around.h"
+#include "trueflank/loop/gear/shape_refinement.h"
+
+namespace trueflank::loop {
+namespace {
+
+struct BesideForms {
+  std::vector<Effect> rest;
+  std::vector<std::vector<Effect>> causes;
+};
+
+struct WavesAround {
+  std::vector<std::size_t> waves, levels;
+};
+
+/// Orders and teeth that an effect is at, chosen among as many as there are teeth.
+int places_of(const Effect& effect) {
+  if (effect.order() > 0.0 || effect.family->local) return 1;
+  const std::vector<TermKey>& keys = effect.family->term_keys;
+  return static_cast<int>(std::count_if(keys.begin(), keys.end(), [](const TermKey& key) {
+    return key.kind == TermKey::Kind::kInteger && !key.name.ends_with("_degree");
+  }));
+}
+
+/// What effects leave of so many values, and how many values and places they are told by, as -2 log
+/// of likelihood where the noise is not known: an index that a form stands in shows no noise
+/// without it.
+double cost_around(const FlankGeometry& geometry, double count, double square,
+                   const std::vector<Effect>& effects) {
+  constexpr double kValue = 8.0;  // as in cost_of
+  constexpr double kNothing = 1e-9;
+  int places = 0;
+  for (const Effect& effect : effects) places += places_of(effect);
+  return count * std::log(std::max(square, kNothing * count)) + kValue * values_of(effects, true) +
+         2.0 * places * std::log(geometry.teeth());
+}
+
+/// Says nothing of where on a flank: values one a tooth show it.
+bool is_from_tooth_to_tooth(const Effect& effect) {
+  const NeedsToBeSeen needs = effect.needs();
+  return !needs.along_profile && !needs.along_face && !effect.family->tells_order_along_profile;
+}
+
+/// What stays, and the causes that may stand beside a form that goes from tooth to tooth: of
+/// heights, those that the answer names, an eccentricity and the names of orders that it tells
+/// without one, up to three at once; of slopes, one of those that the answer names and a tilt.
+BesideForms beside_forms(const PartModel& model, const CourseOverFlanks& course) {
+  const bool heights = course.profile == 0.0 && course.face == 0.0;
+  const auto tilts = [](const Effect& effect) {
+    return effect.family->displacement_mm && effect.columns() == 2 &&
+           effect.needs().several_heights && !effect.family->shape_is_step;
+  };
+  const auto moves = [&](const Effect& effect) {
+    return effect.family->named &&
+           (heights ? moves_the_teeth(effect) && effect.shape.empty() : tilts(effect));
+  };
+  BesideForms found{.rest = {}, .causes = {{}}};
+  std::vector<Effect> names;
+  std::set<double> orders;
+  for (std::size_t e = 0; e < model.effects.size(); ++e) {
+    const Effect& effect = model.effects[e];
+    const EffectFamily& family = *effect.family;
+    const bool around = heights ? is_from_tooth_to_tooth(effect)
+                                : effect.order() > 0.0 || family.local || tilts(effect) ||
+                                      !(family.named || (family.same_on_every_tooth &&
+                                                         family.same_on_every_tooth(effect.shape)));
+    if (e < first_told_here(model) || !around)
+      found.rest.push_back(effect);
+    else if (family.named)
+      names.push_back(effect);
+    else if (effect.order() > 0.0)
+      orders.insert(effect.order());
+  }
+  const auto add = [&](const auto& is_one) {
+    for (std::size_t c = 0; c < model.candidates.size(); ++c)
+      if (is_one(model.candidates[c]) && !model.unseen[c] &&
+          std::find(names.begin(), names.end(), model.candidates[c]) == names.end())
+        names.push_back(model.candidates[c]);
+  };
+  add(moves);
+  if (heights)
+    add([&](const Effect& effect) {
+      return effect.family->named && effect.flank == FlankChoice::kBoth && effect.columns() == 2 &&
+             is_from_tooth_to_tooth(effect) && orders.contains(effect.order());
+    });
+  constexpr std::size_t kMostNames = 5, kMostAtOnce = 3;
+  if (names.size() > kMostNames) names.resize(kMostNames);
+  for (std::size_t name = 0; name < names.size(); ++name) {
+    const std::size_t before = heights ? found.causes.size() : 1;
+    for (std::size_t set = 0; set < before; ++set) {
+      if (found.causes[set].size() == kMostAtOnce) continue;
+      std::vector<Effect> with = found.causes[set];
+      with.push_back(names[name]);
+      found.causes.push_back(std::move(with));
+    }
+  }
+  return found;
+}
+
+/// The forms from tooth to tooth of a course that leave least beside one cause or none, in place of
+/// all that effects say of that; the best of its family, the best first.
+std::vector<RemainderFinding> forms_around(const PartModel& model, const CourseOverFlanks& course,
+                                           int teeth) {
+  constexpr std::size_t kMost = 2;
+  const auto [rest, beside] = beside_forms(model, course);
+  const std::vector<std::vector<Effect>> sets =
+      forms_from_tooth_to_tooth(model.geometry.teeth(), course);
+  constexpr std::size_t kMovedEach = 4;  // and where each could come to
+  std::size_t tried = 0;
+  for (const std::vector<Effect>& set : sets) tried += kMovedEach * set.size() * beside.size();
+  // Both flanks of a tooth may share their error: a value a tooth.
+  const double none = fit_of(model, rest)->residual_square();
+  const double count = fit_of(model, rest)->observations();
+  const auto chance = [none, teeth, tried](double square, int values) {
+    const double degrees = teeth - values - 1.0;
+    if (!(degrees > 0.0)) return 1.0;
+    const double f = (none - square) / values / (std::max(square, 1e-12 * none) / degrees);
+    return std::min(1.0, static_cast<double>(tried) * f_tail(f, values, degrees));
+  };
+  std::vector<std::pair<double, RemainderFinding>> found;
+  for (const std::vector<Effect>& set : sets) {
+    std::pair<double, RemainderFinding> best{kNaN, {}};
+    std::vector<EffectShape> shapes;
+    for (const Effect& form : set) shapes.push_back(form.shape);
+    for (const std::vector<Effect>& names : beside) {
+      std::vector<Effect> with = rest;
+      with.insert(with.end(), names.begin(), names.end());
+      with.push_back(set.front());
+      const TrialFit fit(model.geometry, model.table, model.patches, with);
+      const std::vector<TrialFit::Trial> trials = fit.with_shapes(with.size() - 1, shapes, 1e300);
+      std::size_t least = shapes.size();
+      double square = kNaN;
+      for (std::size_t i = 0; i < shapes.size(); ++i) {
+        if (trials[i].square >= square || trials[i].retained < kToldApart) continue;
+        square = trials[i].square;
+        least = i;
+      }
+      if (least == shapes.size()) continue;
+      Effect form = set[least];
+      if (form.family->nearby)
+        square = move_alone(model.geometry, fit, with.size() - 1, form.shape);
+      with.back() = form;
+      const double cost = cost_around(model.geometry, count, square, with);
+      if (cost >= best.first) continue;
+      best.first = cost;
+      best.second.p_value = chance(square, values_of({form}, true) + values_of(names, true));
+      best.second.effect = std::move(form);
+    }
+    if (best.second.effect) found.push_back(std::move(best));
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<RemainderFinding> starts;
+  for (auto& [cost, finding] : found) {
+    if (starts.size() == kMost) break;
+    finding.square = cost;
+    starts.push_back(std::move(finding));
+  }
+  return starts;
+}
+
+/// Waves from tooth to tooth on these flanks, and what lifts all of them alike.
+WavesAround waves_around(const PartModel& model, FlankChoice flank) {
+  WavesAround found;
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    const Effect& effect = model.effects[e];
+    if (effect.flank != flank || effect.family->local || effect.family->displacement_mm) continue;
+    if (effect.order() > 0.0 && is_from_tooth_to_tooth(effect))
+      found.waves.push_back(e);
+    else if (runs_of(model.geometry, effect) == Runs::kNowhere)
+      found.levels.push_back(e);
+  }
+  return found;
+}
+
+/// One of the forms for the waves whose order is a multiple, and the mean beside them or without
+/// it.
+bool put_form_for_multiples(PartModel& model, const WavesAround& around, int of, std::size_t fewest,
+                            const std::vector<Effect>& forms) {
+  std::vector<std::size_t> these;
+  for (const std::size_t e : around.waves)
+    if (std::remainder(model.effects[e].order(), double(of)) == 0.0) these.push_back(e);
+  if (these.size() < fewest) return false;
+  std::vector<std::size_t> with_levels = these;
+  with_levels.insert(with_levels.end(), around.levels.begin(), around.levels.end());
+  std::sort(with_levels.begin(), with_levels.end());
+  return put_one_form_for(model, with_levels, forms) ||
+         (!around.levels.empty() && put_one_form_for(model, these, forms));
+}
+
+bool has_pieces_that_cancel(const PartModel& model) {
+  const auto fit = fit_of(model, model.effects);
+  const auto is_part_of = [](const Effect& wave, const Effect& form) {
+    return wave.family->named && wave.order() > 0.0 && !form.shape.empty() &&
+           form.family->shape_names.front() == "number" &&
+           std::remainder(wave.order(), form.shape[0]) == 0.0;
+  };
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    for (int k = 0; k < model.effects[e].columns(); ++k)
+      if (!(fit->retained(fit->first_column(static_cast<int>(e)) + k) >= kToldApart)) return true;
+    for (const Effect& wave : model.effects)
+      if (is_part_of(wave, model.effects[e])) return true;
+  }
+  return false;
+}
+
+void take_form_around(PartModel& model, const CourseOverFlanks& course, int teeth) {
+  constexpr double kClearlyLess = 9.0;
+  const auto cost = [](const PartModel& part) {
+    const auto fit = fit_of(part, part.effects);
+    return cost_around(part.geometry, fit->observations(), fit->residual_square(), part.effects);
+  };
+  const double own = cost(model);
+  const bool seen = first_told_here(model) < model.effects.size();
+  double least = own - kClearlyLess;
+  std::unique_ptr<PartModel> best;
+  for (const RemainderFinding& start : forms_around(model, course, teeth)) {
+    if (!(start.square < own)) continue;
+    if (!seen && start.p_value > kRemainderLevel / model.options.tables) continue;
+    PartOptions options = model.options;
+    options.given.resize(first_told_here(model));
+    options.start = {start};
+    auto other = std::make_unique<PartModel>(model.geometry, model.table, std::move(options));
+    explain_part(*other);
+    if (!(cost(*other) < least) || has_pieces_that_cancel(*other)) continue;
+    least = cost(*other);
+    best = std::move(other);
+  }
+  if (!best) return;
+  model.alone = std::move(best->alone);
+  take_over(model, *best);
+}
+
+}  // namespace
+
+bool tell_as_repeating(PartModel& model) {
+  const int z = model.geometry.teeth();
+  for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
+    const WavesAround around = waves_around(model, flank);
+    if (around.waves.empty()) continue;
+    for (int every = 3; every <= kMostOfComb; ++every) {
+      if (z % every != 0) continue;
+      std::vector<Effect> combs = combs_of(every, flank, 0.0);
+      if (flank == FlankChoice::kBoth)
+        for (Effect& aside : combs_of(every, flank, 1.0)) combs.push_back(std::move(aside));
+      if (put_form_for_multiples(model, around, z / every, 1, combs)) return true;
+    }
+    std::vector<std::vector<Effect>> swellings(kMostSwellings + 1);
+    for (Effect& form : swellings_around(z, flank))
+      swellings[static_cast<std::size_t>(form.shape[0])].push_back(std::move(form));
+    for (int number = 2; number <= kMostSwellings; ++number)
+      if (put_form_for_multiples(model, around, number, 2,
+                                 swellings[static_cast<std::size_t>(number)]))
+        return true;
+  }
+  return false;
+}
+
+bool tell_as_swellings_at_end(PartModel& model) {
+  constexpr std::size_t kFewestOfOne = 3;
+  std::vector<std::size_t> waves, feet;
+  int in_common = 0, lowest = 0;  // orders
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    const Effect& effect = model.effects[e];
+    if (effect.flank != FlankChoice::kBoth || effect.family->local ||
+        effect.needs().along_profile || (effect.family->displacement_mm && effect.order() == 0.0))
+      continue;
+    if (const int order = static_cast<int>(effect.order()); order > 0) {
+      waves.push_back(e);
+      in_common = std::gcd(in_common, order);
+      if (effect.needs().along_face && effect.columns() == 2)
+        lowest = lowest == 0 ? order : std::min(lowest, order);
+    } else if (const Runs runs = runs_of(model.geometry, effect);
+               (runs == Runs::kOverFace || runs == Runs::kNowhere) &&
+               (!effect.family->named || effect.family->shape_is_continuous)) {
+      feet.push_back(e);
+    }
+  }
+  if (lowest == 0) return false;
+  for (const int number : std::set<int>{in_common, lowest}) {
+    if (number > kMostSwellings) continue;
+    std::vector<std::size_t> these;
+    for (const std::size_t e : waves)
+      if (std::remainder(model.effects[e].order(), double(number)) == 0.0) these.push_back(e);
+    if (number == 1 && these.size() < kFewestOfOne) continue;
+    std::vector<std::size_t> all = these;
+    all.insert(all.end(), feet.begin(), feet.end());
+    std::sort(all.begin(), all.end());
+    if (all.size() < 2) continue;
+    const std::vector<Effect> forms = swellings_at_ends(model.geometry, number);
+    if (put_one_form_for(model, all, forms) ||
+        (!feet.empty() && put_one_form_for(model, these, forms)))
+      return true;
+  }
+  return false;
+}
+
+void take_form_around(PartModel& model) {
+  constexpr int kFewestTeeth = 8, kPieces = 3;
+  if (!model.options.start.empty() || model.options.joined || model.options.names_only ||
+      !model.table->points_mm.empty())
+    return;
+  std::map<ObservationKind, std::set<int>> teeth;
+  for (const Patches::Patch& patch : model.patches.patches)
+    if (patch.kind != ObservationKind::kSize)
+      teeth[patch.kind].insert(patch.places.front().place.tooth);
+  const auto teeth_of = [&](ObservationKind kind) {
+    const auto found = teeth.find(kind);
+    return found == teeth.end() ? 0 : static_cast<int>(found->second.size());
+  };
+  const bool traced = teeth_of(ObservationKind::kProfile) + teeth_of(ObservationKind::kHelix) > 0;
+  if (!traced) {
+    const int most =
+        std::max(teeth_of(ObservationKind::kIndex), teeth_of(ObservationKind::kRadial));
+    if (most >= kFewestTeeth) take_form_around(model, {}, most);
+    return;
+  }
+  const auto pieces = std::count_if(
+      model.effects.begin() + static_cast<std::ptrdiff_t>(first_told_here(model)),
+      model.effects.end(), [](const Effect& effect) { return !effect.family->named; });
+  if (pieces < kPieces) return;
+  if (const int profiles = teeth_of(ObservationKind::kProfile); profiles >= kFewestTeeth)
+    take_form_around(model, {.profile = 1.0}, profiles);
+  if (const int helices = teeth_of(ObservationKind::kHelix); helices >= kFewestTeeth)
+    take_form_around(model, {.face = 1.0}, helices);
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "trueflank/loop/gear/part/part_model.h"
+
+namespace trueflank::loop {
+
+/// Swellings that repeat (sinks at gates, ribs, jaws) are waves of an order and its multiples, and
+/// a mean that may get a name; one tooth in three or more is a wave of that many teeth, and a mean.
+[[nodiscard]] bool tell_as_repeating(PartModel& model);
+/// Swellings that die away from an end are waves of an order and its multiples over the face, and
+/// what runs over the face of all teeth; one alone, waves of many orders.
+[[nodiscard]] bool tell_as_swellings_at_end(PartModel& model);
+/// Values one a tooth alone (beside traces and scans they are asked by themselves:
+/// hold_to_single_values), and slopes of traces that ended in pieces: told with one form that goes
+/// from tooth to tooth where that costs clearly less.
+void take_form_around(PartModel& model);
+
+}  // namespace trueflank::loop

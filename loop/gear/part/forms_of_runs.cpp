@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What some neighbouring teeth have along their flanks and the others have not: found from every
+// tooth's own course, before waves around the gear make of it one form of all teeth. It is taken
+// up, and all else is chosen anew beside it (part_loop_sections.cpp).
+#include "trueflank/loop/gear/part/forms_of_runs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/local/forms_on_teeth.h"
+#include "trueflank/loop/gear/part/part_model.h"
+#include "trueflank/loop/gear/part/runs_along.h"
+
+namespace trueflank::loop {
+namespace {
+
+/// True where an effect is another at another place along the profile (0) or the face (1) of some
+/// tooth.
+bool varies_along(const FlankGeometry& geometry, const Effect& effect, int face) {
+  constexpr int kAlong = 24, kAcross = 3;
+  constexpr double kNothing = 1e-6;
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  std::vector<double> values(static_cast<std::size_t>(effect.columns())), first(values);
+  for (int tooth = 1; tooth <= geometry.teeth(); ++tooth)
+    for (const int side : {1, -1})
+      for (int across = 0; across < kAcross; ++across)
+        for (int i = 0; i < kAlong; ++i) {
+          const double along = (i + 0.5) / kAlong, beside = (across + 0.5) / kAcross;
+          const double u = face != 0 ? beside : along, v = face != 0 ? along : beside;
+          effect.evaluate(
+              geometry,
+              geometry.on_flank(tooth, side, low + u * (high - low), v * geometry.face_width_mm()),
+              values.data());
+          if (i == 0) first = values;
+          for (std::size_t k = 0; k < values.size(); ++k)
+            if (std::abs(values[k] - first[k]) > kNothing) return true;
+        }
+  return false;
+}
+
+/// A form that moved away from its teeth says something else: a bow of all teeth but a few.
+bool is_about_run(const Effect& form, const FormOnTeeth& found) {
+  constexpr double kFew = 2.0, kShare = 0.3;
+  return std::abs(form.shape[1] - found.count) <= std::max(kFew, kShare * found.count);
+}
+
+/// Swellings about the middle of a run, at a height or over the whole face.
+std::vector<Effect> dents_about(const FlankGeometry& geometry, const FormOnTeeth& found) {
+  constexpr int kHeights = 9;
+  std::vector<Effect> dents;
+  const double face_mm = geometry.face_width_mm();
+  for (const double off : {-0.5, 0.0, 0.5})
+    for (const double half : {0.4, 0.6, 0.9}) {
+      const double middle = found.first + 0.5 * (found.count - 1.0) + off;
+      const auto add = [&](double height_mm, double half_mm) {
+        dents.push_back({find_family("unnamed_dent"),
+                         found.flank,
+                         {middle, half * found.count, height_mm, half_mm}});
+      };
+      add(0.0, 0.0);
+      for (int i = 0; i < kHeights; ++i)
+        for (const double share : {0.1, 0.2, 0.35})
+          add((i + 0.5) / kHeights * face_mm, share * face_mm);
+    }
+  return dents;
+}
+
+}  // namespace
+
+std::vector<double> left_with(const PartModel& model, const std::vector<std::size_t>& these) {
+  const auto fit = fit_of(model, model.effects);
+  const auto row_um = fit->residuals_um();
+  std::vector<double> left(row_um->begin(), row_um->end());
+  if (these.empty()) return left;
+  std::vector<double> columns;
+  for (std::size_t i = 0; i < model.table->rows.size(); ++i) {
+    const Observation& row = model.table->rows[i];
+    if (row.places != 1 || model.patches.patch_of_row[i] < 0) continue;
+    const Place& place = model.table->place(row);
+    for (const std::size_t e : these) {
+      columns.resize(static_cast<std::size_t>(model.effects[e].columns()));
+      model.effects[e].evaluate(model.geometry, place, columns.data());
+      const int first = fit->first_column(static_cast<int>(e));
+      for (std::size_t k = 0; k < columns.size(); ++k)
+        left[i] += columns[k] * fit->coefficients()[first + static_cast<int>(k)];
+    }
+  }
+  return left;
+}
+
+std::vector<Effect> with_form_on_teeth(const PartModel& model, std::vector<std::size_t>& these,
+                                       double& p_value) {
+  constexpr double kClearly = 25.0, kEnds = 16.0, kEdge = 8.0;  // chi-square
+  std::vector<Effect> best;
+  std::vector<Effect> rest;
+  std::optional<FormOnTeeth> run;
+  double least = cost_of(model, model.effects) - kClearly;
+  for (const int face : {1, 0}) {
+    std::vector<std::size_t> pieces;
+    for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e)
+      if (!model.effects[e].family->named && !gear_effects::is_of_teeth(model.effects[e]) &&
+          varies_along(model.geometry, model.effects[e], face))
+        pieces.push_back(e);
+    const std::optional<FormOnTeeth> found =
+        form_on_teeth(model.geometry, model.table, model.patches, left_with(model, pieces), face);
+    if (!found) continue;
+    std::vector<std::vector<std::size_t>> sets{pieces};
+    std::vector<std::size_t> uneven;  // from tooth to tooth
+    for (const std::size_t e : pieces)
+      if (runs_of(model.geometry, model.effects[e], Flanks::kOfEither) == Runs::kOtherwise)
+        uneven.push_back(e);
+    if (!uneven.empty() && uneven.size() < pieces.size()) sets.push_back(uneven);
+    if (!pieces.empty()) sets.emplace_back();
+    for (const std::vector<std::size_t>& set : sets) {
+      std::vector<Effect> others;
+      for (std::size_t e = 0; e < model.effects.size(); ++e)
+        if (std::find(set.begin(), set.end(), e) == set.end()) others.push_back(model.effects[e]);
+      for (const double edge : {0.0, 2.0, 4.0, 8.0}) {
+        if (edge > found->count) continue;
+        std::vector<Effect> forms = found->forms;
+        for (Effect& form : forms) form.shape[2] = edge;
+        for (const Effect& form : forms) {
+          std::vector<Effect> with = with_best_form(model, others, {form}, {});
+          if (with.empty() || !is_about_run(with.back(), *found)) continue;
+          const double cost = cost_of(model, with) + kEnds + (edge > 0.0 ? kEdge : 0.0);
+          if (!(cost < least)) continue;
+          least = cost;
+          run = *found;
+          rest = others;
+          best = std::move(with);
+          these = set;
+          p_value = found->p_value;
+        }
+      }
+    }
+  }
+  if (best.empty()) return best;
+  // A swelling about a tooth is told as that (look_at_neighbours).
+  const std::vector<Effect> dent =
+      with_best_form(model, rest, dents_about(model.geometry, *run), {});
+  if (!dent.empty() && cost_of(model, dent) < least) return {};
+  return best;
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "trueflank/loop/gear/part/part_model.h"
+
+namespace trueflank::loop {
+
+/// What is left of every row, with what these effects say added.
+[[nodiscard]] std::vector<double> left_with(const PartModel& model,
+                                            const std::vector<std::size_t>& these);
+/// A form along the flanks of a run of teeth, with sharp or soft edges, in place of the forms
+/// without a name that differ along the flanks, or beside them: where that costs least.
+[[nodiscard]] std::vector<Effect> with_form_on_teeth(const PartModel& model,
+                                                     std::vector<std::size_t>& these,
+                                                     double& p_value);
+
+}  // namespace trueflank::loop

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "trueflank/loop/gear/part/part_model.h"
+
+namespace trueflank::loop {
+
+/// A slope of one flank beside another slope of either: where the smaller of the two flanks' is no
+/// crumb, both kinds of slope of all flanks, a lean and a taper, are told. That is as many values
+/// and the same sum, and causes that act on all flanks are the usual ones.
+void tell_one_flank_as_two_names_of_all(PartModel& model);
+/// Two forms without a name, each of teeth that the other leaves alone, and together as good as a
+/// name: they are that name and one of them, the smaller, if that is anything beside it.
+void tell_names_in_two_parts(PartModel& model);
+/// Names of all teeth that the choice passed over, as small beside the others as they are, where
+/// each takes out clearly more than chance: up to so many values.
+void add_names(PartModel& model, int most_values);
+
+}  // namespace trueflank::loop

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "trueflank/loop/gear/part/part_model.h"
+
+namespace trueflank::loop {
+
+/// Where the choice ends in pieces it is made again from other starts, and the best of these is
+/// kept. True where that is in no pieces, leaves nothing and costs less: it is taken over, whole.
+[[nodiscard]] bool begins_better(PartModel& model);
+/// The best of other starts where it costs clearly less than what the choice came to by itself.
+void take_other_start(PartModel& model);
+
+}  // namespace trueflank::loop

@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Some teeth side by side: what waves around the gear, single teeth and levels are made of.
+#include "trueflank/loop/gear/part/sectors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/part/one_form.h"
+#include "trueflank/loop/gear/part/part_model.h"
+#include "trueflank/loop/gear/part/parts_of_forms.h"
+#include "trueflank/loop/gear/part/runs_along.h"
+
+namespace trueflank::loop {
+namespace {
+
+constexpr int kFewestWavesOfSector = 2;
+
+/// A wave around the gear that is alike all over the flanks.
+bool is_wave_of_teeth(const Effect& e) {
+  const NeedsToBeSeen needs = e.needs();
+  return e.order() > 0.0 && !e.family->tells_order_along_profile && !needs.along_profile &&
+         !needs.along_face;
+}
+
+/// How far each tooth stands out by what some effects say and by what is left beside all.
+struct HeightOfTeeth {
+  std::vector<double> sum, weight;
+};
+
+/// Teeth side by side that stand out most from the rest, of as many as half of them: first and
+/// count.
+std::pair<int, int> standing_out(const HeightOfTeeth& heights) {
+  const auto z = static_cast<int>(heights.sum.size());
+  double all = 0.0, of_all = 0.0, most = 0.0;
+  for (int k = 0; k < z; ++k) {
+    all += heights.sum[static_cast<std::size_t>(k)];
+    of_all += heights.weight[static_cast<std::size_t>(k)];
+  }
+  std::pair<int, int> best{0, 0};
+  for (int first = 0; first < z; ++first) {
+    double inside = 0.0, of_inside = 0.0;
+    for (int count = 1; count <= z / 2; ++count) {
+      const auto tooth = static_cast<std::size_t>((first + count - 1) % z);
+      inside += heights.sum[tooth];
+      of_inside += heights.weight[tooth];
+      const double of_outside = of_all - of_inside;
+      if (count < 2 || !(of_inside > 0.0) || !(of_outside > 0.0)) continue;
+      const double step = inside / of_inside - (all - inside) / of_outside;
+      const double square = step * step * of_inside * of_outside / of_all;
+      if (!(square > most)) continue;
+      most = square;
+      best = {first + 1, count};
+    }
+  }
+  return best;
+}
+
+/// Drifts of heights, or of teeth that stand aside, from every tooth on: even ones, and those that
+/// level off or grow.
+std::vector<std::vector<Effect>> drifts_from_every_tooth(const FlankGeometry& geometry,
+                                                         double opposite) {
+  std::vector<std::vector<Effect>> drifts(2);
+  for (int first = 1; first <= geometry.teeth(); ++first) {
+    drifts[0].push_back(
+        {find_family("unnamed_ramp"), FlankChoice::kBoth, {double(first), 0.0, 0.0, opposite}});
+    for (const double grows : {0.0, 1.0})
+      for (const double share : {0.1, 0.25, 0.5})
+        drifts[1].push_back({find_family("unnamed_levelling"),
+                             FlankChoice::kBoth,
+                             {double(first), 0.0, 0.0, opposite, grows, share * geometry.teeth()}});
+  }
+  return drifts;
+}
+
+/// What stands on one tooth that is not near the edges of a sector.
+bool is_far_from_edges(const FlankGeometry& geometry, const Effect& effect, const Effect& sector) {
+  constexpr double kNear = 3.0;  // teeth
+  if (!effect.family->local && !effect.family->is_of_one_tooth) return false;
+  const double middle = sector.shape[0] + 0.5 * (sector.shape[1] - 1.0);
+  const double off = std::abs(std::remainder(effect.shape[0] - middle, geometry.teeth()));
+  return std::abs(off - 0.5 * sector.shape[1]) > std::max(kNear, sector.shape[1] / kNear);
+}
+
+/// The sector that follows best what these effects say together, and swellings about its middle;
+/// none where no teeth stand out.
+std::vector<Effect> sectors_in_place_of(PartModel& model, const std::vector<std::size_t>& these,
+                                        bool opposite) {
+  const auto fit = fit_of(model, model.effects);
+  std::vector<Effect> own;
+  for (const std::size_t e : these) own.push_back(model.effects[e]);
+  const DiscoveryProblem problem = make_problem(model.geometry, model.table, model.patches, own);
+  Eigen::VectorXd height = Eigen::VectorXd::Zero(problem.candidates.rows());
+  for (std::size_t i = 0; i < these.size(); ++i)
+    height += problem.candidates.middleCols(problem.groups[i].first_column, own[i].columns())
+                  .cast<double>() *
+              fit->coefficients().segment(fit->first_column(static_cast<int>(these[i])),
+                                          own[i].columns());
+  std::vector<double> left(model.patches.patches.size(), 0.0), count(left);
+  const auto row_um = fit->residuals_um();
+  for (std::size_t row = 0; row < row_um->size(); ++row)
+    if (const int patch = model.patches.patch_of_row[row]; patch >= 0) {
+      left[static_cast<std::size_t>(patch)] += (*row_um)[row];
+      count[static_cast<std::size_t>(patch)] += 1.0;
+    }
+  const auto z = static_cast<std::size_t>(model.geometry.teeth());
+  HeightOfTeeth heights{std::vector<double>(z, 0.0), std::vector<double>(z, 0.0)};
+  for (std::size_t p = 0; p < model.patches.patches.size(); ++p) {
+    const Patches::Patch& patch = model.patches.patches[p];
+    const bool flank =
+        patch.kind == ObservationKind::kScanFlank || patch.kind == ObservationKind::kIndex;
+    if (!flank || count[p] == 0.0) continue;
+    const Place& place = patch.places.front().place;
+    const auto tooth = static_cast<std::size_t>(place.tooth - 1);
+    const double um = height[static_cast<Eigen::Index>(p)] + left[p] / count[p];
+    heights.sum[tooth] += patch.weight * um * (opposite ? place.side : 1);
+    heights.weight[tooth] += patch.weight;
+  }
+  const auto [first, teeth] = standing_out(heights);
+  if (teeth < 2) return {};
+  std::vector<Effect> forms{{find_family("unnamed_sector"),
+                             FlankChoice::kBoth,
+                             {double(first), double(teeth), 0.0, 0.0, opposite ? 1.0 : 0.0}}};
+  if (opposite) return forms;
+  for (double middle = -1.0; middle <= 1.0; middle += 0.5)
+    for (double half = 0.3; half < 1.0; half *= 1.15)
+      forms.push_back({find_family("unnamed_dent"),
+                       FlankChoice::kBoth,
+                       {first + 0.5 * (teeth - 1) + middle, half * teeth, 0.0, 0.0}});
+  return forms;
+}
+
+/// The answer with a sector that begins and ends over some teeth, the last, in place of these
+/// effects, where it says as much: the teeth at its edges stand between. A sharp one where that
+/// follows nearly as well. Empty where none does.
+std::vector<Effect> with_soft_sector(const PartModel& model, const std::vector<std::size_t>& these,
+                                     const Effect& sector) {
+  constexpr double kClearly = 9.0, kValue = 6.0;  // chi-square
+  constexpr int kPlacesOfSector = 2;
+  std::vector<Effect> others, own;
+  int values = 0;
+  for (std::size_t e = 0; e < model.effects.size(); ++e) {
+    const bool is_own = std::find(these.begin(), these.end(), e) != these.end();
+    (is_own ? own : others).push_back(model.effects[e]);
+    // Where a sector begins and ends was sought, too.
+    if (is_own && model.effects[e].family == sector.family) values += kPlacesOfSector;
+  }
+  values += values_of(own, true);
+  std::vector<Effect> forms;
+  for (const double edge : {1.0, 2.0, 4.0, 8.0})
+    if (edge <= sector.shape[1])
+      forms.push_back({find_family("unnamed_soft_sector"),
+                       FlankChoice::kBoth,
+                       {sector.shape[0] + 0.5 * (sector.shape[1] - 1.0), sector.shape[1], edge,
+                        sector.shape[4]}});
+  // Most of what waves are is no sector: then its edges are not sought.
+  constexpr double kOnTheGrid = 0.6;
+  const double now = fit_of(model, model.effects)->residual_square(),
+               none = std::max(0.0, fit_of(model, others)->residual_square() - now);
+  std::vector<Effect> with = with_best_form(
+      model, others, forms, {.on_the_grid = now + kValue * values + (1.0 - kOnTheGrid) * none});
+  if (with.empty()) return {};
+  double gain = now - fit_of(model, with)->residual_square();
+  int spared = values - values_of({with.back()}, true);
+  std::vector<Effect> sharp = with_best_form(model, others, {sector}, {});
+  if (!sharp.empty()) {
+    const double of_sharp = now - fit_of(model, sharp)->residual_square();
+    if (gain - of_sharp < kClearly + kValue) {
+      with = std::move(sharp);
+      gain = of_sharp;
+      spared = values - values_of({sector}, true) - kPlacesOfSector;
+    }
+  }
+  if (spared < 0 || gain < kClearly - kValue * spared) return {};
+  const double left = fit_of(model, with)->residual_square();
+  for (const std::vector<Effect>& drifts :
+       drifts_from_every_tooth(model.geometry, sector.shape[4])) {
+    const std::vector<Effect> drift = with_best_form(model, others, drifts, {});
+    if (!drift.empty() && fit_of(model, drift)->residual_square() < left) return {};
+  }
+  return with;
+}
+
+/// A sector, or a swelling about its middle, for these effects: the one with sharp edges where that
+/// says as much. Of what stands on single teeth one with soft edges is tried for what is at these.
+std::vector<Effect> with_sector_for(PartModel& model, std::vector<std::size_t>& these,
+                                    bool opposite) {
+  constexpr double kEdges = 16.0, kClearly = 9.0;  // where a sharp one begins and ends; chi-square
+  const std::vector<Effect> forms = sectors_in_place_of(model, these, opposite);
+  if (forms.empty()) return {};
+  std::vector<std::size_t> with_edges = these, sharp = these;
+  std::erase_if(with_edges, [&](std::size_t e) {
+    return is_far_from_edges(model.geometry, model.effects[e], forms[0]);
+  });
+  std::erase_if(sharp, [&](std::size_t e) { return model.effects[e].family->is_of_one_tooth; });
+  std::vector<Effect> hard;
+  if (sharp.size() > 1) hard = one_form_for(model, sharp, forms);
+  std::vector<Effect> soft = with_soft_sector(model, with_edges, forms[0]);
+  if (!soft.empty() &&
+      (hard.empty() || cost_of(model, soft) < cost_of(model, hard) + kEdges - kClearly)) {
+    these = std::move(with_edges);
+    return soft;
+  }
+  these = std::move(sharp);
+  return hard;
+}
+
+/// A run of effects on neighbouring teeth: which, the first tooth, how many teeth it spans.
+struct RunOfTeeth {
+  std::vector<std::size_t> effects;
+  int first = 0, count = 0;
+};
+
+/// The longest run with at most one tooth left out in a row. Effects by their tooth, in order.
+RunOfTeeth longest_run(const std::vector<std::pair<int, std::size_t>>& teeth, int z) {
+  RunOfTeeth best;
+  for (std::size_t from = 0; from < teeth.size(); ++from) {
+    RunOfTeeth run{{teeth[from].second}, teeth[from].first, 1};
+    for (std::size_t i = 1; i < teeth.size(); ++i) {
+      const auto& [tooth, effect] = teeth[(from + i) % teeth.size()];
+      const int count = (tooth - run.first + z) % z + 1;
+      if (count - run.count > 2) break;
+      run.count = count;
+      run.effects.push_back(effect);
+    }
+    if (run.effects.size() > best.effects.size()) best = std::move(run);
+  }
+  return best;
+}
+
+/// The swelling or sector that says best what some single teeth say, if it leaves little of it.
+std::optional<Effect> form_of_teeth(const PartModel& model, const std::vector<Effect>& rest,
+                                    FlankChoice flank, int first, int count) {
+  constexpr double kNearly = 0.1;
+  std::vector<Effect> tried{
+      {find_family("unnamed_sector"), flank, {double(first), double(count), 0.0, 0.0, 0.0}}};
+  for (double middle = -1.0; middle <= 1.0; middle += 0.5)
+    for (double half = 0.3; half < 1.0; half *= 1.3)
+      tried.push_back({find_family("unnamed_dent"),
+                       flank,
+                       {first + 0.5 * (count - 1) + middle, half * count, 0.0, 0.0}});
+  std::vector<Effect> with = rest;
+  with.emplace_back();
+  std::size_t best = 0;
+  double least = 1e300;
+  for (std::size_t i = 0; i < tried.size(); ++i) {
+    with.back() = tried[i];
+    const double left =
+        PointFit(model.geometry, model.table, model.patches, with).residual_square();
+    if (left >= least) continue;
+    least = left;
+    best = i;
+  }
+  const double all = fit_of(model, model.effects)->residual_square();
+  if (least > all + kNearly * (fit_of(model, rest)->residual_square() - all)) return {};
+  return tried[best];
+}
+
+/// Beside a dent or swelling of a few teeth, a form of some, or a tooth that stands aside, a single
+/// tooth is what these leave.
+void tell_teeth_beside_dents(PartModel& model) {
+  constexpr double kBeside = 1.5;  // teeth
+  const int z = model.geometry.teeth();
+  const EffectFamily *dent = find_family("unnamed_dent"),
+                     *aside = find_family("unnamed_tooth_aside");
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    const EffectFamily* form = form_instead(model, e);
+    if (form == nullptr || !model.effects[e].family->local) continue;
+    const bool beside =
+        std::any_of(model.effects.begin(), model.effects.end(), [&](const Effect& other) {
+          const bool of_some = gear_effects::is_of_teeth(other);
+          if (other.family != dent && other.family != aside && !of_some) return false;
+          const double half = of_some                ? 0.5 * (other.shape[1] - 1.0)
+                              : other.family == dent ? other.shape[1]
+                                                     : 0.0;
+          const double middle = other.shape[0] + (of_some ? half : 0.0);
+          return std::abs(std::remainder(middle - model.effects[e].shape[0], z)) < kBeside + half;
+        });
+    if (beside) model.effects[e].family = form;
+  }
+}
+
+}  // namespace
+
+bool tell_as_sector(PartModel& model) {
+  std::vector<std::size_t> these;
+  const std::vector<Effect> with = with_sector(model, these);
+  if (with.empty()) return false;
+  put_in_place_of(model, these, with);
+  return true;
+}
+
+std::vector<Effect> with_sector(PartModel& model, std::vector<std::size_t>& these) {
+  const EffectFamily* sector_family = find_family("unnamed_sector");
+  std::vector<std::size_t> waves, moved, levels, teeth;
+  std::vector<Effect> sectors;
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    const Effect& effect = model.effects[e];
+    if ((effect.family->local && effect.columns() == 1) || effect.family->is_of_one_tooth) {
+      teeth.push_back(e);
+    } else if (effect.family == sector_family && effect.shape[2] == 0.0 && effect.shape[3] == 0.0) {
+      waves.push_back(e);
+      sectors.push_back(effect);
+    } else if (effect.family == find_family("unnamed_dent") && effect.shape[3] == 0.0) {
+      waves.push_back(e);
+    } else if (is_wave_of_teeth(effect)) {
+      (effect.family->displacement_mm ? moved : waves).push_back(e);
+    } else if (runs_of(model.geometry, effect) == Runs::kNowhere) {
+      levels.push_back(e);
+    }
+  }
+  if (sectors.empty() && static_cast<int>(waves.size()) < kFewestWavesOfSector) return {};
+  using Some = std::vector<std::vector<std::size_t>>;
+  std::vector<std::size_t> before;
+  for (const Some& with :
+       {Some{moved, levels, teeth}, Some{levels, teeth}, Some{teeth}, Some{levels}, Some{}}) {
+    std::vector<std::size_t> set = waves;
+    for (const std::vector<std::size_t>& more : with)
+      set.insert(set.end(), more.begin(), more.end());
+    std::sort(set.begin(), set.end());
+    if (set == before) continue;
+    before = set;
+    for (const bool opposite : {false, true}) {
+      these = set;
+      std::vector<Effect> with_one = with_sector_for(model, these, opposite);
+      if (!with_one.empty()) return with_one;
+    }
+  }
+  return {};
+}
+
+void tell_teeth_side_by_side(PartModel& model) {
+  constexpr std::size_t kFewest = 3;
+  for (std::size_t one = model.options.given.size(); one < model.effects.size(); ++one) {
+    if (!model.effects[one].family->local) continue;
+    const auto fit = fit_of(model, model.effects);
+    const auto height = [&](std::size_t e) {
+      return fit->coefficients()[fit->first_column(static_cast<int>(e))];
+    };
+    std::vector<std::pair<int, std::size_t>> teeth;
+    for (std::size_t e = one; e < model.effects.size(); ++e)
+      if (model.effects[e].family == model.effects[one].family &&
+          model.effects[e].flank == model.effects[one].flank && height(e) * height(one) > 0.0)
+        teeth.emplace_back(static_cast<int>(model.effects[e].shape[0]), e);
+    std::sort(teeth.begin(), teeth.end());
+    RunOfTeeth run = longest_run(teeth, model.geometry.teeth());
+    if (run.effects.size() < kFewest) continue;
+    std::sort(run.effects.rbegin(), run.effects.rend());
+    std::vector<Effect> rest = model.effects;
+    for (const std::size_t e : run.effects)
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(e));
+    const std::optional<Effect> form =
+        form_of_teeth(model, rest, model.effects[one].flank, run.first, run.count);
+    if (!form) {
+      for (const std::size_t e : run.effects)
+        if (const EffectFamily* height_of_tooth = form_instead(model, e))
+          model.effects[e].family = height_of_tooth;
+      continue;
+    }
+    ChosenGroup record;
+    record.group = -1;
+    record.p_value = model.discovery.chosen[one].p_value;
+    for (const std::size_t e : run.effects) {
+      record.p_value = std::min(record.p_value, model.discovery.chosen[e].p_value);
+      remove_effect(model, e);
+    }
+    model.effects.push_back(*form);
+    model.discovery.chosen.push_back(record);
+    one = model.options.given.size();
+  }
+  tell_teeth_beside_dents(model);
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "trueflank/loop/gear/part/part_model.h"
+
+namespace trueflank::loop {
+
+/// Forms change while an answer is found, and each rule that takes a name away knows those of its
+/// time. In the end what says the same as a name gets it where it is settled.
+void name_what_is_settled(PartModel& model);
+
+}  // namespace trueflank::loop

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What is asked beside the choice: single teeth, sizes, and what a few teeth side by side share.
+#include "trueflank/loop/gear/part/single_teeth.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/gear/part/choice.h"
+#include "trueflank/loop/gear/part/part_model.h"
+#include "trueflank/loop/gear/part/records.h"
+
+namespace trueflank::loop {
+
+void look_at_single_teeth(PartModel& model) {
+  std::vector<Effect> local;
+  for (const Effect& effect : model.candidates) {
+    if (!effect.family->local) continue;
+    const bool chosen =
+        std::any_of(model.effects.begin(), model.effects.end(), [&](const Effect& e) {
+          return e.family == effect.family && e.shape == effect.shape && e.flank == effect.flank;
+        });
+    if (!chosen) local.push_back(effect);
+  }
+  DiscoveryProblem problem = make_problem(model.geometry, model.table, model.patches, local);
+  add_nuisance(problem, make_problem(model.geometry, model.table, model.patches, model.effects));
+  for (int& fold : problem.fold)
+    if (fold == 0) fold = 1;
+  DiscoveryOptions options;
+  options.first_level = options.next_level = 0.0;
+  // Of values one a tooth alone the tails are asked besides.
+  constexpr double kBesideTails = 0.01;
+  if (has_single_values_only(model)) options.local_level = kBesideTails;
+  options.local_level /= model.options.tables;
+  options.flips = 1;
+  options.most_effects = 3;
+  for (const ChosenGroup& chosen : discover(problem, options).chosen) {
+    model.effects.push_back(local[chosen.group]);
+    ChosenGroup record = chosen;
+    record.group = -1;
+    model.discovery.chosen.push_back(record);
+  }
+  drop_teeth_within_the_tails(model);
+}
+
+void look_at_sizes(PartModel& model) {
+  constexpr double kSure = 1e-3, kTie = 4.0;
+  const auto sizes =
+      std::count_if(model.table->rows.begin(), model.table->rows.end(),
+                    [](const Observation& row) { return row.kind == ObservationKind::kSize; });
+  for (int round = 0; round < 2 && sizes > 0; ++round) {
+    const double before = fit_of(model, model.effects)->residual_square();
+    int best = -1;
+    std::vector<std::pair<int, double>> tried;
+    for (int g = 0; g < static_cast<int>(model.candidates.size()); ++g) {
+      const Effect& effect = model.candidates[g];
+      if (!effect.family->shows_in_sizes || model.banned[g] ||
+          std::any_of(model.effects.begin(), model.effects.end(),
+                      [&](const Effect& e) { return e.family == effect.family; }))
+        continue;
+      std::vector<Effect> with = model.effects;
+      with.push_back(effect);
+      const PointFit fit(model.geometry, model.table, model.patches, with);
+      if (fit.retained(fit.first_column(static_cast<int>(model.effects.size()))) < 2e-3) continue;
+      tried.emplace_back(g, before - fit.residual_square());
+      if (best < 0 || tried.back().second > tried[best].second)
+        best = static_cast<int>(tried.size()) - 1;
+    }
+    if (best < 0) return;
+    const double tests = static_cast<double>(tried.size()) * model.options.tables;
+    const double best_gain = tried[best].second;
+    const double alone = model.table->size_degrees > 0
+                             ? f_tail(best_gain, 1.0, model.table->size_degrees)
+                             : std::exp(-minus_log_chi_square_tail(best_gain, 1));
+    const double p = std::min(1.0, tests * alone);
+    if (p > kSure) return;
+    ChosenGroup record;
+    record.group = tried[best].first;
+    record.p_value = p;
+    for (const auto& [group, gain] : tried)
+      if (group != record.group && tried[best].second - gain < kTie)
+        record.confounded.push_back(group);
+    model.effects.push_back(model.candidates[record.group]);
+    model.discovery.chosen.push_back(record);
+  }
+}
+
+void look_at_neighbours(PartModel& model) {
+  std::vector<Effect> common;
+  for (const Effect& effect : model.effects)
+    if (!effect.family->local) common.push_back(effect);
+  const auto shared_without = [&](const std::vector<Effect>& effects) {
+    return shared_by_neighbours(model.geometry, model.patches,
+                                *fit_of(model, effects)->residuals_um());
+  };
+  model.neighbours = shared_without(common);
+  if (common.size() == model.effects.size()) return;
+  if (!neighbours_share(model)) {
+    model.neighbours = shared_without(model.effects);
+    return;
+  }
+  const int z = model.geometry.teeth();
+  for (std::size_t e = model.effects.size(); e-- > model.options.given.size();) {
+    if (!model.effects[e].family->local) continue;
+    const int off = std::abs(static_cast<int>(model.effects[e].shape[0]) - model.neighbours.tooth);
+    if (std::min(off, z - off) > 1) continue;
+    model.effects.erase(model.effects.begin() + static_cast<std::ptrdiff_t>(e));
+    model.discovery.chosen.erase(model.discovery.chosen.begin() + static_cast<std::ptrdiff_t>(e));
+  }
+}
+
+bool neighbours_share(const PartModel& model) {
+  return model.neighbours.p_value <= 0.002 / model.options.tables;
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "trueflank/loop/gear/part/part_model.h"
+
+namespace trueflank::loop {
+
+/// Single teeth once more with the hold-out: what stands in one tooth cannot be learnt from others.
+void look_at_single_teeth(PartModel& model);
+/// Sizes are few and know their own error: what they say of thickness, which traces with zeros of
+/// their own cannot show, is judged by chi-square.
+void look_at_sizes(PartModel& model);
+/// What stands over a few teeth is no wave: many small terms, none of which is found by itself. Nor
+/// is it a single tooth where the teeth beside it share it.
+void look_at_neighbours(PartModel& model);
+/// True where neighbouring teeth share what the effects leave, beyond chance.
+[[nodiscard]] bool neighbours_share(const PartModel& model);
+
+}  // namespace trueflank::loop

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/part/structure_left.h"
+
+#include <algorithm>
+
+#include "trueflank/loop/gear/part/single_teeth.h"
+
+namespace trueflank::loop {
+
+bool structure_is_left(const PartModel& model) {
+  constexpr double kLeft = 0.01, kLeftOfNothing = 0.01, kSureThoughDenied = 0.0015;
+  if (neighbours_share(model) || !model.remainder.empty() || model.denied_spot) return true;
+  // What the hold-out denied must be surer than what it was not asked about.
+  const double sure = model.vetoed ? kSureThoughDenied : kLeftOfNothing;
+  if (model.effects.empty()) {
+    // Single teeth have a level of their own, at which they were chosen: they are asked again only
+    // where the hold-out denied one, and never one of single values, whose tails may be long.
+    const double p = model.vetoed && !has_single_values_only(model)
+                         ? model.discovery.first_p_value
+                         : model.discovery.first_common_p_value;
+    return p <= sure / model.options.tables;
+  }
+  return model.discovery.p_left <= kLeft / model.options.tables &&
+         model.discovery.most_likely_left >= 0;
+}
+
+WhatIsLeft what_is_left(const PartModel& model) {
+  WhatIsLeft left{.nothing = !structure_is_left(model)};
+  for (const RemainderFinding& finding : model.remainder) {
+    left.own_profiles = left.own_profiles || finding.own == OwnCourse::kProfile;
+    left.own_leads = left.own_leads || finding.own == OwnCourse::kLead;
+  }
+  return left;
+}
+
+double structure_left_p_value(const PartModel& model) {
+  return model.remainder.empty()
+             ? model.discovery.p_left
+             : std::min(model.discovery.p_left, model.remainder.front().p_value);
+}
+
+std::string structure_left(const PartModel& model) {
+  if (neighbours_share(model))
+    return words_for(model.neighbours) +
+           (model.remainder.empty() ? "" : "; and " + model.remainder.front().text);
+  if (!model.remainder.empty()) return model.remainder.front().text;
+  if (model.denied_spot)
+    return words_for(model.geometry, *model.denied_spot) +
+           ", which the values held out do not bear out";
+  if (!structure_is_left(model) || model.discovery.most_likely_left < 0)
+    return "nothing beyond the measurement's own noise was found";
+  return "what is left looks most like " +
+         words_for(model.geometry, model.candidates[model.discovery.most_likely_left]);
+}
+
+}  // namespace trueflank::loop

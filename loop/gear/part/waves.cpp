@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Waves that grow towards an end, or begin at a place: waves of several lengths, and forms that
+// bend them, are told as these. Waves around the gear that one odd form is made of.
+#include "trueflank/loop/gear/part/waves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "trueflank/base/units.h"
+#include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/part/one_form.h"
+#include "trueflank/loop/gear/part/part_model.h"
+#include "trueflank/loop/gear/part/parts_of_forms.h"
+#include "trueflank/loop/gear/part/runs_along.h"
+#include "trueflank/loop/gear/remainder_around.h"
+#include "trueflank/loop/gear/shape_refinement.h"
+
+namespace trueflank::loop {
+namespace {
+
+/// A wave of two columns over the flanks of one side: how many waves from root to tip, from the
+/// lower end to the upper one, and how many a turn its phase goes on from tooth to tooth.
+struct WaveAcross {
+  std::size_t effect = 0;
+  double profile = 0.0, face = 0.0, order = 0.0;
+  double size_um = 0.0;
+
+  [[nodiscard]] WaveAcross reversed() const { return {effect, -profile, -face, -order, size_um}; }
+};
+
+WaveAcross wave_across(const FlankGeometry& geometry, const Effect& effect, int side) {
+  constexpr int kSteps = 512;
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  const auto phase = [&](int tooth, double u, double v) {
+    double c[2];
+    effect.evaluate(
+        geometry,
+        geometry.on_flank(tooth, side, low + u * (high - low), v * geometry.face_width_mm()), c);
+    return std::atan2(c[1], c[0]);
+  };
+  const auto waves_along = [&](double profile, double face) {
+    double turned = 0.0, before = phase(1, 0.0, 0.0);
+    for (int i = 1; i <= kSteps; ++i) {
+      const double share = static_cast<double>(i) / kSteps;
+      const double now = phase(1, profile * share, face * share);
+      turned += std::remainder(now - before, kTwoPi);
+      before = now;
+    }
+    return turned / kTwoPi;
+  };
+  return {.profile = waves_along(1.0, 0.0),
+          .face = waves_along(0.0, 1.0),
+          .order = std::remainder(phase(2, 0.0, 0.0) - phase(1, 0.0, 0.0), kTwoPi) / kTwoPi *
+                   geometry.teeth()};
+}
+
+/// The length of the largest wave without a name among some effects; empty: there is none.
+std::optional<double> largest_wavelength_mm(const PartModel& model,
+                                            const std::vector<std::size_t>& of) {
+  std::optional<double> wavelength_mm;
+  double most_um = 0.0;
+  for (const std::size_t e : of) {
+    if (model.effects[e].family != find_family("unnamed_waviness")) continue;
+    const double um = fit_of(model, model.effects)->effect_size_um(static_cast<int>(e));
+    if (um < most_um) continue;
+    most_um = um;
+    wavelength_mm = model.effects[e].shape[1];
+  }
+  return wavelength_mm;
+}
+
+/// A wave of a family on either flank, last, in place of some: of the order near theirs that leaves
+/// least.
+std::vector<Effect> with_pair_for(const PartModel& model, const std::vector<std::size_t>& these,
+                                  const EffectFamily& family) {
+  const Effect& wave = model.effects[these.front()];
+  std::vector<EffectShape> shapes{wave.shape};
+  if (family.nearby)
+    for (EffectShape& shape : family.nearby(model.geometry, wave.shape))
+      shapes.push_back(std::move(shape));
+  std::vector<Effect> with;
+  for (std::size_t e = 0; e < model.effects.size(); ++e)
+    if (std::find(these.begin(), these.end(), e) == these.end()) with.push_back(model.effects[e]);
+  const std::size_t at = with.size();
+  for (const FlankChoice flank : {FlankChoice::kLeft, FlankChoice::kRight})
+    with.push_back({&family, flank, wave.shape});
+  // (the values of one flank hang on the other's by what both have in common alone)
+  const TrialFit fit = fit_to_refine(model.geometry, model.table, model.patches, with);
+  const std::vector<TrialFit::Trial> left = fit.with_shapes(at, shapes, 0.0),
+                                     right = fit.with_shapes(at + 1, shapes, 0.0);
+  double least = kNaN;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (left[i].square + right[i].square >= least) continue;
+    least = left[i].square + right[i].square;
+    with[at].shape = with[at + 1].shape = shapes[i];
+  }
+  return with;
+}
+
+}  // namespace
+
+bool tell_as_part_of_a_wave(PartModel& model, const std::vector<std::size_t>& all, int face,
+                            FlankChoice flank) {
+  std::vector<std::size_t> forms, bent;
+  for (const std::size_t e : all) {
+    if (!model.effects[e].is_term() || !model.effects[e].family->form_word.empty()) continue;
+    forms.push_back(e);
+    if (!is_straight(model.geometry, model.effects[e])) bent.push_back(e);
+  }
+  const std::optional<double> wavelength_mm = largest_wavelength_mm(model, forms);
+  if (!wavelength_mm) return false;
+  // (families stand in one vector, so their order here is that of the library)
+  std::map<const EffectFamily*, std::vector<Effect>> parts;
+  for (Effect& part : gear_effects::parts_of_waves(model.geometry, face, flank, *wavelength_mm))
+    parts[part.family].push_back(std::move(part));
+  // Which kind of waves fits best is seen when each is moved to where it fits best.
+  const auto best_part_for = [&](const std::vector<std::size_t>& these) {
+    std::vector<Effect> best;
+    double least = kNaN;
+    for (const auto& [family, forms_of_it] : parts) {
+      std::vector<Effect> with = one_form_for(model, these, forms_of_it, {}, 0);
+      if (with.empty()) continue;
+      const double left = fit_of(model, with)->residual_square();
+      if (left >= least) continue;
+      least = left;
+      best = std::move(with);
+    }
+    if (!best.empty()) put_in_place_of(model, these, best);
+    return !best.empty();
+  };
+  return (forms.size() > 1 && best_part_for(forms)) ||
+         (bent.size() > 1 && bent.size() < forms.size() && best_part_for(bent));
+}
+
+std::optional<RemainderFinding> wave_of_pieces(const PartModel& model, int face,
+                                               FlankChoice flank) {
+  std::vector<std::size_t> along;
+  std::vector<Effect> others{
+      {find_family("unnamed"), flank, {face == 0 ? 1.0 : 0.0, face == 0 ? 0.0 : 1.0, 0.0, 0.0}}};
+  for (std::size_t e = 0; e < model.effects.size(); ++e) {
+    const Runs runs = runs_of(model.geometry, model.effects[e]);
+    if (runs == (face == 0 ? Runs::kOverProfile : Runs::kOverFace) &&
+        model.effects[e].flank == flank)
+      along.push_back(e);
+    else if (!model.effects[e].family->local)
+      others.push_back(model.effects[e]);
+  }
+  const std::optional<double> wavelength_mm = largest_wavelength_mm(model, along);
+  if (along.size() < 3 || !wavelength_mm) return {};
+  const std::vector<Effect> with =
+      with_best_form(model, std::move(others),
+                     gear_effects::parts_of_waves(model.geometry, face, flank, *wavelength_mm), {});
+  if (with.empty()) return {};
+  RemainderFinding wave;
+  wave.effect = with.back();
+  for (const std::size_t e : along)
+    wave.p_value = std::min(wave.p_value, model.discovery.chosen[e].p_value);
+  return wave;
+}
+
+std::vector<Effect> with_phase_of_each_flank(const PartModel& model,
+                                             std::vector<std::size_t>& these) {
+  constexpr double kClearly = 25.0;  // chi-square
+  constexpr double kAlike = 2.0;     // sizes on both flanks
+  if (!is_traced(model.table))
+    return {};  // scans show all teeth: waves of one flank are found in them
+  std::vector<std::vector<std::size_t>> sets;
+  std::vector<std::size_t> of_both;
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    if (!model.effects[e].family->tells_order_along_profile) continue;
+    if (model.effects[e].flank == FlankChoice::kBoth) {
+      of_both.push_back(e);
+      sets.push_back({e});
+      continue;
+    }
+    // Both have it already: beside what was found since, another order may fit better.
+    for (std::size_t f = e + 1; f < model.effects.size(); ++f)
+      if (model.effects[f].family == model.effects[e].family &&
+          model.effects[f].shape == model.effects[e].shape)
+        sets.push_back({e, f});
+  }
+  if (of_both.size() > 1) sets.insert(sets.begin(), of_both);
+  std::vector<Effect> best;
+  double least = cost_of(model, model.effects) - kClearly;
+  // (the library has the way the teeth are counted first, then the other one)
+  for (const EffectFamily& family : effect_library()) {
+    if (!family.tells_order_along_profile) continue;
+    for (const std::vector<std::size_t>& set : sets) {
+      std::vector<Effect> with = with_pair_for(model, set, family);
+      const double cost = cost_of(model, with);
+      if (!(cost < least)) continue;
+      const auto fitted = fit_of(model, with);
+      const auto size_um = [&](std::size_t before_last) {
+        return fitted->effect_size_um(static_cast<int>(with.size() - 1 - before_last));
+      };
+      const double ratio = size_um(0) / size_um(1);
+      if (!(ratio < kAlike && ratio > 1.0 / kAlike)) continue;
+      least = cost;
+      these = set;
+      best = std::move(with);
+    }
+    // The other way must say clearly more than this one.
+    if (!best.empty()) least -= kClearly;
+  }
+  return best;
+}
+
+void tell_waves_of_a_form(PartModel& model) {
+  constexpr double kCounts = 0.1, kLike = 0.25;
+  constexpr std::size_t kFewest = 3;
+  if (model.effects.empty()) return;
+  const auto fit = fit_of(model, model.effects);
+  struct Wave {
+    std::size_t effect = 0;
+    double order = 0.0, size_um = 0.0;
+  };
+  std::vector<Wave> waves;
+  bool drifts = false;
+  for (std::size_t e = 0; e < model.effects.size(); ++e) {
+    const Effect& effect = model.effects[e];
+    drifts = drifts || effect.family->is_drift;
+    const NeedsToBeSeen needs = effect.needs();
+    if (is_wave_around(effect) && !needs.along_profile && !needs.along_face)
+      waves.push_back({e, effect.order(), fit->effect_size_um(static_cast<int>(e))});
+  }
+  // A wave without a name of as many that runs along the flanks, too, and is larger.
+  const auto is_part_of_a_form = [&](const Wave& wave) {
+    return model.effects[wave.effect].family->doubt_share > 0.0 &&
+           std::any_of(model.effects.begin(), model.effects.end(), [&](const Effect& form) {
+             return form.is_term() && form.order() == wave.order && wave.order > 1.0 &&
+                    form.needs().along_face &&
+                    fit->effect_size_um(static_cast<int>(&form - model.effects.data())) >
+                        wave.size_um;
+           });
+  };
+  for (const Wave& wave : waves) {
+    const EffectFamily* form = form_instead(model, wave.effect);
+    if (form == nullptr) continue;
+    if (is_part_of_a_form(wave)) {
+      model.effects[wave.effect].family = form;
+      continue;
+    }
+    std::set<double> orders;
+    double others_um = 0.0;
+    bool one_kind = true;
+    for (const Wave& other : waves) {
+      if (other.size_um < kCounts * wave.size_um) continue;
+      one_kind =
+          one_kind && model.effects[other.effect].family == model.effects[wave.effect].family;
+      orders.insert(other.order);
+      if (other.order != wave.order) others_um = std::hypot(others_um, other.size_um);
+    }
+    if (others_um < kLike * wave.size_um) continue;
+    // Jaws and gates press in sharper than a sine: multiples of their number are theirs.
+    constexpr double kFewestJaws = 3.0;
+    const double lowest = *orders.begin();
+    const bool harmonics = lowest >= kFewestJaws && one_kind &&
+                           std::all_of(orders.begin(), orders.end(),
+                                       [&](double n) { return std::remainder(n, lowest) == 0.0; });
+    if (!harmonics && orders.size() >= (drifts ? kFewest - 1 : kFewest))
+      model.effects[wave.effect].family = form;
+  }
+}
+
+bool tell_as_walking_waves(PartModel& model) {
+  constexpr double kAlike = 0.8;                           // waves along the flank
+  constexpr double kBeside = 1.5;                          // periods a turn: the next whole number
+  constexpr int kFewestTeeth = 8, kSeams = 16, kMore = 3;  // kMore: values
+  const int z = model.geometry.teeth();
+  if (z < kFewestTeeth) return false;
+  for (const int side : {1, -1}) {
+    const FlankChoice flank = flank_choice(model.geometry, side > 0 ? 1 : 0);
+    std::vector<WaveAcross> waves;
+    for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+      const Effect& effect = model.effects[e];
+      if (effect.flank != flank || effect.columns() != 2 || effect.family->local ||
+          !(effect.family->tells_order_along_profile ||
+            effect.family == find_family("unnamed_marks") ||
+            effect.family == find_family("unnamed_waviness")))
+        continue;
+      waves.push_back(wave_across(model.geometry, effect, side));
+      waves.back().effect = e;
+      waves.back().size_um = fit_of(model, model.effects)->effect_size_um(static_cast<int>(e));
+    }
+    if (waves.size() < 2) continue;
+    const WaveAcross most = *std::max_element(
+        waves.begin(), waves.end(),
+        [](const WaveAcross& a, const WaveAcross& b) { return a.size_um < b.size_um; });
+    std::vector<std::size_t> these;
+    bool beside = false;
+    for (const WaveAcross& own : waves)
+      for (const WaveAcross& wave : {own, own.reversed()}) {
+        if (std::abs(wave.profile - most.profile) > kAlike ||
+            std::abs(wave.face - most.face) > kAlike)
+          continue;
+        these.push_back(wave.effect);
+        beside = beside || (wave.effect != most.effect &&
+                            std::abs(std::remainder(wave.order - most.order, z)) < kBeside);
+      }
+    if (!beside) continue;
+    these.erase(std::unique(these.begin(), these.end()), these.end());
+    std::vector<Effect> forms;
+    const double seam = std::max(1.0, static_cast<double>(z) / kSeams);
+    for (const double off : {-0.8, -0.6, -0.4, -0.2, 0.2, 0.4, 0.6, 0.8})
+      for (const double profile : {-0.15, 0.0, 0.15})
+        for (double from = 1.0; from < z + 1.0; from += seam)
+          forms.push_back({find_family("unnamed_walking_waves"),
+                           flank,
+                           {most.profile == 0.0 ? 0.0 : most.profile + profile, most.face,
+                            most.order + off, std::floor(from)}});
+    if (put_one_form_for(model, these, forms, {}, kMore)) return true;
+  }
+  return false;
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "trueflank/loop/gear/part/part_model.h"
+
+namespace trueflank::loop {
+
+/// A part of a wave along one direction for what runs there on these flanks in pieces.
+[[nodiscard]] bool tell_as_part_of_a_wave(PartModel& model, const std::vector<std::size_t>& all,
+                                          int face, FlankChoice flank);
+/// The part of a wave that is most of what runs along one direction, beside a slope and what does
+/// not run there; empty where no wave does.
+[[nodiscard]] std::optional<RemainderFinding> wave_of_pieces(const PartModel& model, int face,
+                                                             FlankChoice flank);
+/// A wave over the generating rotation that has a phase of its own on either flank, for those that
+/// have the same on both: how far the rotations at which both flanks are made lie apart hangs on
+/// tool and machine, and flanks may be made one after the other. Where few teeth are traced,
+/// another order has both phases by chance, or two beside each other have. Empty: there is none.
+[[nodiscard]] std::vector<Effect> with_phase_of_each_flank(const PartModel& model,
+                                                           std::vector<std::size_t>& these);
+/// Waves around the gear of three orders or more and of like size, none a multiple of the lowest,
+/// or of two beside a drift: what one odd form is made of.
+void tell_waves_of_a_form(PartModel& model);
+/// Waves of one side, about alike over the flank, of orders beside each other are one whose periods
+/// a turn are no whole number.
+[[nodiscard]] bool tell_as_walking_waves(PartModel& model);
+
+}  // namespace trueflank::loop
