@@ -289,7 +289,7 @@ class RemainderSearch {
     constexpr double kMostOfATrace = 1.0;  // amplitude: half of the squares
     switch (found.kind) {
       case Kind::kStep:
-        add_form("unnamed_step", flank, {face, at, found.set < -1 ? 1.0 : 0.0}, found.p_value,
+        add_form("unnamed_step", flank, {face, at, found.set < -1 ? 1.0 : 0.0, 0.0}, found.p_value,
                  found.amount, false, found.square);
         found_.back().beside_line = found.beside_line;
         break;

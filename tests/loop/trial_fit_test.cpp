@@ -223,7 +223,8 @@ TEST_F(TrialFits, WhatStandsBeforeTheFirstStaysAsItIs) {
 /// Shapes of families that have none to choose from, over profile and face of a gear.
 std::vector<loop::EffectShape> shapes_of(const loop::EffectFamily& family, const MadeGear& gear) {
   const double diameter = 2.0 * gear.reference(), height = 0.4 * gear.face_mm;
-  if (family.id == "unnamed_step") return {{0.0, diameter, 0.0}, {1.0, height, 0.0}, {1.0, height, 1.0}};
+  if (family.id == "unnamed_step")
+    return {{0.0, diameter, 0.0, 0.0}, {1.0, height, 0.0, 0.3}, {1.0, height, 1.0, 0.0}};
   if (family.id == "unnamed_kink") return {{0.0, diameter, 1.0}, {1.0, height, -1.0}, {1.0, height, 0.0}};
   if (family.id == "unnamed_band") return {{0.0, diameter, 0.5}, {1.0, height, 1.0}};
   if (family.id == "unnamed_waviness") return {{0.0, 0.8}, {1.0, 2.3}};
@@ -285,7 +286,8 @@ class TrialFitsOfTraces : public ::testing::Test {
 
 TEST_F(TrialFitsOfTraces, FitsThatTakeColumnsFromOthersAreTheSame) {
   const Effect wave = of("unnamed_waviness", {1.0, 3.3}), tilt = of("axis_tilt", {0.0}),
-               step = of("unnamed_step", {1.0, 4.0, 0.0}), moved = of("unnamed_waviness", {1.0, 3.2});
+               step = of("unnamed_step", {1.0, 4.0, 0.0, 0.0}),
+               moved = of("unnamed_waviness", {1.0, 3.2});
   const auto fit_of = [&](const std::vector<Effect>& effects, loop::PointFit::Known known = {}) {
     return std::make_shared<const loop::PointFit>(geometry_, table_, patches_, effects, 1,
                                                   loop::DeviationsOf::kTable, known);

@@ -102,6 +102,12 @@ namespace trueflank::loop::gear_effects {
   return std::exp(-off * off / (width * width));
 }
 
+/// From nothing to 1 over the length of an edge about 0 (as steep there as a straight one of that
+/// length, and about as long from a tenth to nine tenths); at once without one.
+[[nodiscard]] inline double beyond_edge(double off, double edge) {
+  return edge > 0.0 ? 1.0 / (1.0 + std::exp(-4.0 * off / edge)) : off > 0.0 ? 1.0 : 0.0;
+}
+
 inline const TermKey kAlong{"along", TermKey::Kind::kWord, {"profile", "face"}};
 [[nodiscard]] inline TermKey number(const std::string& name) {
   return {name, TermKey::Kind::kNumber};

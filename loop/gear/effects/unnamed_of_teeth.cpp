@@ -50,6 +50,10 @@ EffectFamily of_teeth(EffectFamily form) {
   f.needs = [needs = form.needs](const EffectShape& shape) {
     return needs(EffectShape(shape.begin() + kOwnValues, shape.end()));
   };
+  if (form.values_sought)
+    f.values_sought = [sought = form.values_sought](const EffectShape& shape) {
+      return sought(form_shape(shape));
+    };
   f.nearby = [nearby = form.nearby](const FlankGeometry& g, const EffectShape& shape) {
     const EffectShape own(shape.begin() + kOwnValues, shape.end());
     std::vector<EffectShape> shapes;

@@ -79,25 +79,46 @@ double along_profile(const FlankGeometry& geometry, double roll_mm) {
   return std::max(kFromBase, roll_mm / geometry.base_radius_mm());
 }
 
+/// From nothing to 1 at its place, at once or over the length of an edge.
 EffectFamily unnamed_step() {
-  EffectFamily f =
-      along_flank("unnamed_step", {"along", "place_mm", "opposite_flanks"},
-                  [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
-                    const double beyond = shape[2] != 0.0 ? p.side : 1.0;
-                    return along(shape[0], p) > stands_at(g, shape[0], shape[1]) ? beyond : 0.0;
-                  });
-  // (few values tell where a form bends, any beside a step on which side of it they stand)
+  constexpr std::size_t kEdge = 3;
+  EffectFamily f = along_flank(
+      "unnamed_step", {"along", "place_mm", "opposite_flanks", "edge_mm"},
+      [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
+        return (shape[2] != 0.0 ? p.side : 1.0) *
+               beyond_edge(along(shape[0], p) - stands_at(g, shape[0], shape[1]), shape[kEdge]);
+      });
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
-    return places_beside(g, shape, {0.05, 0.02, 0.01, 0.005, 0.002, 0.0007, 0.0002});
+    // (few values tell where a form bends, any beside a step on which side of it they stand)
+    std::vector<EffectShape> shapes =
+        places_beside(g, shape, {0.05, 0.02, 0.01, 0.005, 0.002, 0.0007, 0.0002});
+    // A longer edge is a slope from end to end.
+    constexpr double kSharpest = 0.015, kSoftest = 0.25;
+    const double range = std::abs(range_mm(g, shape[0])), edge = shape[kEdge];
+    std::vector<double> edges{0.03 * range, 0.1 * range};
+    if (edge > 0.0)
+      edges = {0.0, 0.5 * edge, 0.7 * edge, 0.87 * edge, 1.15 * edge, 1.43 * edge, 2.0 * edge};
+    for (const double other : edges) {
+      if (other != 0.0 && !(other >= kSharpest * range && other <= kSoftest * range)) continue;
+      shapes.push_back(shape);
+      shapes.back()[kEdge] = other;
+    }
+    return shapes;
   };
-  f.term_keys = {
-      kAlong, number("place_mm"), {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}}};
+  f.values_sought = [](const EffectShape& shape) { return shape[kEdge] > 0.0 ? 2 : 1; };
+  f.term_keys = {kAlong,
+                 number("place_mm"),
+                 {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}},
+                 number("edge_mm")};
   f.words = [](const ToldForm& told) {
     const EffectShape& shape = told.shape;
     const bool opposite = shape[2] != 0.0;
     return "the same on every tooth, a step " + over(shape[0]) + " " +
-           at_place(told.geometry, shape[0], shape[1]) + opposite_words(opposite) +
-           there(beyond(shape[0]), told.sign(), opposite);
+           at_place(told.geometry, shape[0], shape[1]) +
+           (shape[kEdge] > 0.0 ? printed(", over %.2g mm", shape[kEdge]) +
+                                     (shape[0] != 0.0 ? "" : " of roll length")
+                               : "") +
+           opposite_words(opposite) + there(beyond(shape[0]), told.sign(), opposite);
   };
   return f;
 }
@@ -359,11 +380,8 @@ EffectFamily unnamed_strip() {
       along_flank("unnamed_strip", {"along", "from_mm", "to_mm", "side_mm"},
                   [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
                     const double at = along(shape[0], p);
-                    const auto beyond = [&](double place_mm) {
-                      return (at - stands_at(g, shape[0], place_mm)) / shape[3];
-                    };
-                    return 1.0 / ((1.0 + std::exp(-4.0 * beyond(shape[1]))) *
-                                  (1.0 + std::exp(4.0 * beyond(shape[2]))));
+                    return beyond_edge(at - stands_at(g, shape[0], shape[1]), shape[3]) *
+                           beyond_edge(stands_at(g, shape[0], shape[2]) - at, shape[3]);
                   });
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     std::vector<EffectShape> shapes;

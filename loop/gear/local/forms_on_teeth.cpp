@@ -150,7 +150,7 @@ std::vector<Effect> forms_like(const FlankGeometry& geometry, const OnFlank& cou
                          [](const auto& a, const auto& b) { return a.square < b.square; });
     if (best == tried.end() || !(best->square > least) || (opposite && !has_flanks)) return;
     Effect form{find_family(family), flank, best->shape};
-    if (opposite) form.shape.push_back(1.0);
+    if (opposite && form.shape.size() < form.family->shape_names.size()) form.shape.push_back(1.0);
     forms.push_back(std::move(form));
   };
   std::vector<Tried> waves, bands, steps, rises;
@@ -168,10 +168,8 @@ std::vector<Effect> forms_like(const FlankGeometry& geometry, const OnFlank& cou
                                           })})});
   for (double at = 0.1; at < 0.95; at += 0.05)
     steps.push_back(
-        {{double(face), place(at)},
+        {{double(face), place(at), opposite ? 1.0 : 0.0, 0.0},
          square_beside_slow(course, {column_of([&](double x) { return x > at ? 1.0 : 0.0; })})});
-  if (!opposite)
-    for (Tried& step : steps) step.shape.push_back(0.0);
   for (const double end : {-1.0, 1.0})
     for (const double within : {0.04, 0.08, 0.15})
       rises.push_back({{double(face), within * range_mm, end},

@@ -82,9 +82,10 @@ std::vector<Effect> steps_along(const FlankGeometry& geometry, double face, Flan
   constexpr int kParts = 12;
   std::vector<Effect> forms;
   for (int part = 1; part < kParts; ++part)
-    forms.push_back({find_family("unnamed_step"),
-                     flank,
-                     {face, place_at(geometry, face, static_cast<double>(part) / kParts), 0.0}});
+    forms.push_back(
+        {find_family("unnamed_step"),
+         flank,
+         {face, place_at(geometry, face, static_cast<double>(part) / kParts), 0.0, 0.0}});
   return forms;
 }
 
