@@ -92,14 +92,15 @@ EffectFamily unnamed_step() {
     // (few values tell where a form bends, any beside a step on which side of it they stand)
     std::vector<EffectShape> shapes =
         places_beside(g, shape, {0.05, 0.02, 0.01, 0.005, 0.002, 0.0007, 0.0002});
-    // A longer edge is a slope from end to end.
-    constexpr double kSharpest = 0.015, kSoftest = 0.25;
+    // A sharp one stays sharp: with an edge, one that was found first bends to what stands beside
+    // it (edges are sought for all at once: likeliest_steps.cpp). A longer edge is a slope from end
+    // to end.
+    constexpr double kSharpest = 0.01, kSoftest = 0.25;
     const double range = std::abs(range_mm(g, shape[0])), edge = shape[kEdge];
-    std::vector<double> edges{0.03 * range, 0.1 * range};
-    if (edge > 0.0)
-      edges = {0.0, 0.5 * edge, 0.7 * edge, 0.87 * edge, 1.15 * edge, 1.43 * edge, 2.0 * edge};
-    for (const double other : edges) {
-      if (other != 0.0 && !(other >= kSharpest * range && other <= kSoftest * range)) continue;
+    if (edge == 0.0) return shapes;
+    for (const double times : {0.0, 0.5, 0.7, 0.87, 0.95, 1.05, 1.15, 1.43, 2.0}) {
+      const double other = times * edge;
+      if (times != 0.0 && !(other >= kSharpest * range && other <= kSoftest * range)) continue;
       shapes.push_back(shape);
       shapes.back()[kEdge] = other;
     }

@@ -442,6 +442,10 @@ std::vector<LikelyForms> LikeliestProducts::around_the_gear() const {
   return best_of(std::move(forms), kKindsOfAWay);
 }
 
+std::vector<LikelyForms> LikeliestProducts::steps(double face, bool beside_names) const {
+  return product_cells::likeliest_steps(cells_->geometry, cells_->teeth, face, beside_names);
+}
+
 std::vector<LikelyForms> LikeliestProducts::waves() const {
   const auto& [g, scan, teeth, profiles, faces, ways] = *cells_;
   return product_cells::likeliest_waves(g, teeth, profiles, faces, product_cells::arounds_of(g),

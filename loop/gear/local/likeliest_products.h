@@ -33,6 +33,9 @@ class LikeliestProducts {
   };
   [[nodiscard]] BesideNames beside_names() const;
   [[nodiscard]] std::vector<LikelyForms> around_the_gear() const;  ///< unnamed_crossed_around
+  /// Steps over the profile (0) or the face (1), the same on every tooth, as the residuals are or
+  /// beside slopes and bows: unnamed_step.
+  [[nodiscard]] std::vector<LikelyForms> steps(double face, bool beside_names) const;
   [[nodiscard]] std::vector<LikelyForms> waves() const;            ///< unnamed_crossed_waves
 
  private:

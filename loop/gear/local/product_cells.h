@@ -81,4 +81,11 @@ using OfTeeth = std::vector<std::array<OfFlank, 2>>;
                                                        const std::vector<CourseInCells>& faces,
                                                        const Arounds& arounds, bool scan);
 
+/// Steps over the profile (0) or the face (1) that are the same on every tooth: lists of
+/// unnamed_step, one for each way of flanks, sharp and with edges. A level is free beside them;
+/// `beside_names`: so are a slope and a bow.
+[[nodiscard]] std::vector<LikelyForms> likeliest_steps(const FlankGeometry& geometry,
+                                                       const OfTeeth& teeth, double face,
+                                                       bool beside_names);
+
 }  // namespace trueflank::loop::product_cells

@@ -14,6 +14,21 @@
 
 namespace trueflank::loop {
 
+std::vector<std::vector<std::size_t>> with_and_without(const std::vector<std::size_t>& all,
+                                                       const std::vector<std::size_t>& names) {
+  std::vector<std::vector<std::size_t>> sets{all};
+  for (const std::size_t kept : names) {
+    sets.push_back(all);
+    std::erase(sets.back(), kept);
+  }
+  if (names.size() > 1) {
+    sets.push_back(all);
+    for (const std::size_t kept : names) std::erase(sets.back(), kept);
+  }
+  std::erase_if(sets, [](const auto& set) { return set.empty(); });
+  return sets;
+}
+
 std::vector<std::vector<std::size_t>> crossed_sets(const PartModel& model, int fewest_values) {
   std::vector<std::size_t> all, names;
   std::vector<Effect> own;
@@ -27,17 +42,7 @@ std::vector<std::vector<std::size_t>> crossed_sets(const PartModel& model, int f
     crossed = crossed || runs == Runs::kOverBoth;
   }
   if (!crossed || values_of(own, true) < fewest_values) return {};
-  std::vector<std::vector<std::size_t>> sets{all};
-  for (const std::size_t kept : names) {
-    sets.push_back(all);
-    std::erase(sets.back(), kept);
-  }
-  if (names.size() > 1) {
-    sets.push_back(all);
-    for (const std::size_t kept : names) std::erase(sets.back(), kept);
-  }
-  std::erase_if(sets, [](const auto& set) { return set.empty(); });
-  return sets;
+  return with_and_without(all, names);
 }
 
 bool tell_as_corner(PartModel& model) {

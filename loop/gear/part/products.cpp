@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Products of simple courses in place of what follows them in pieces: over profile and face, from
-// tooth to tooth, and waves weighed by a course. Places and widths are sought in what is left
-// without the pieces, which do not lead to them.
+// Steps with an edge, and products of simple courses in place of what follows them in pieces: over
+// profile and face, from tooth to tooth, and waves weighed by a course. Places and widths are
+// sought in what is left without the pieces, which do not lead to them.
 #include "trueflank/loop/gear/part/products.h"
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,6 +56,7 @@ class Products {
     return std::move(best_);
   }
 
+  void ask_steps(int face);
   void ask_the_same_on_every_tooth();
   void ask_around_the_gear();
   void ask_waves();
@@ -70,8 +72,10 @@ class Products {
     constexpr double kMostOfIt = 0.5;
     return kMostOfIt * (1.0 - now_ / fit_of(model_, others)->residual_square()) * square;
   }
-  [[nodiscard]] std::vector<Effect> common_names_beside(const std::vector<Effect>& others) const;
+  [[nodiscard]] std::vector<Effect> common_names_beside(const std::vector<Effect>& others,
+                                                        std::optional<Runs> along = {}) const;
   [[nodiscard]] Indices pieces_of(const Effect& form, const Indices& set) const;
+  [[nodiscard]] bool earns_its_place(const std::vector<Effect>& with) const;
   void ask(const Indices& set, const std::vector<LikelyForms>& forms, double least_gain,
            const std::vector<Effect>& beside = {});
 
@@ -91,13 +95,18 @@ std::vector<Effect> Products::without(const Indices& set) const {
 }
 
 /// Levels, slopes and bows of all teeth that have a name and are not among these; of a level the
-/// form.
-std::vector<Effect> Products::common_names_beside(const std::vector<Effect>& others) const {
+/// form. Along one direction, or any.
+std::vector<Effect> Products::common_names_beside(const std::vector<Effect>& others,
+                                                  std::optional<Runs> along) const {
+  const auto runs = [&](const Effect& name) {
+    const Runs own = runs_of(model_.geometry, name, Flanks::kOfEither);
+    return along ? own == *along : own != Runs::kNowhere;
+  };
   std::vector<Effect> names{{find_family("unnamed"), FlankChoice::kBoth, {0.0, 0.0, 0.0, 0.0}}};
   for (std::size_t c = 0; c < model_.candidates.size(); ++c)
     if (const Effect& name = model_.candidates[c];
         is_name_of_all_teeth(name) && name.shape.empty() && name.flank == FlankChoice::kBoth &&
-        !model_.unseen[c] && runs_of(model_.geometry, name, Flanks::kOfEither) != Runs::kNowhere)
+        !model_.unseen[c] && runs(name))
       names.push_back(name);
   std::vector<Effect> beside, all = others;
   for (const Effect& name : names) {
@@ -122,6 +131,14 @@ std::vector<std::size_t> Products::pieces_of(const Effect& form, const Indices& 
   return pieces;
 }
 
+/// False where the names beside a form, the last, say nearly as much without it.
+bool Products::earns_its_place(const std::vector<Effect>& with) const {
+  constexpr double kClearly = 9.0;  // chi-square
+  std::vector<Effect> without = with;
+  without.pop_back();
+  return cost_of(model_, with) < cost_of(model_, without) - kClearly;
+}
+
 /// Forms for a set; names that are free beside them do not stay: they are chosen anew.
 void Products::ask(const Indices& set, const std::vector<LikelyForms>& forms, double least_gain,
                    const std::vector<Effect>& beside) {
@@ -133,11 +150,39 @@ void Products::ask(const Indices& set, const std::vector<LikelyForms>& forms, do
     if (with.empty() || gear_effects::is_product_of_polynomials(model_.geometry, with.back()))
       continue;
     const double cost = cost_of(model_, with);
-    if (!(cost < least_)) continue;
+    if (!(cost < least_) || (!beside.empty() && !earns_its_place(with))) continue;
     least_ = cost;
     best_ = std::move(with);
     best_.erase(best_.end() - 1 - std::ssize(beside), best_.end() - 1);
     these_ = std::move(taken);
+  }
+}
+
+/// A step, sharp or with an edge, for all that runs over the profile (0) or the face (1) alike on
+/// every tooth, on both flanks and on either: slopes, bows, kinks, ridges and waves follow an edge.
+/// A level and names that the pieces have taken up may stand beside it.
+void Products::ask_steps(int face) {
+  constexpr int kFewestValues = 3;
+  const Runs along = face == 0 ? Runs::kOverProfile : Runs::kOverFace;
+  Indices all, names;
+  for (const std::size_t e : all_) {
+    const Effect& effect = model_.effects[e];
+    if (runs_of(model_.geometry, effect, Flanks::kOfEither) != along) continue;
+    all.push_back(e);
+    if (effect.family->named) names.push_back(e);
+  }
+  if (all.size() < 2 || names.size() == all.size()) return;
+  const Effect level{find_family("unnamed"), FlankChoice::kBoth, {0.0, 0.0, 0.0, 0.0}};
+  for (const Indices& set : with_and_without(all, names)) {
+    std::vector<Effect> own;
+    for (const std::size_t e : set) own.push_back(model_.effects[e]);
+    if (set.size() < 2 || values_of(own, true) < kFewestValues) continue;
+    const std::vector<Effect> others = without(set);
+    const LikeliestProducts likeliest = likeliest_beside(others);
+    const std::vector<LikelyForms> alone = likeliest.steps(face, false);
+    ask(set, alone, 0.0);
+    if (is_told_apart(model_, level, others)) ask(set, alone, 0.0, {level});
+    ask(set, likeliest.steps(face, true), 0.0, common_names_beside(others, along));
   }
 }
 
@@ -207,7 +252,8 @@ void Products::ask_waves() {
 std::vector<Effect> with_products(const PartModel& model, std::vector<std::size_t>& these) {
   if (model.effects == model.no_products_in) return {};
   Products products(model);
-  products.ask_the_same_on_every_tooth();
+  for (const int face : {0, 1}) products.ask_steps(face);
+  if (!products.found()) products.ask_the_same_on_every_tooth();
   products.ask_around_the_gear();
   if (!products.found()) products.ask_waves();
   if (!products.found()) model.no_products_in = model.effects;

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <regex>
+
+#include "tests/loop/made_gears.h"
+
+// Steps along the flanks whose edge has a length, as layer borders and work that slips have. Their
+// edges are made otherwise than the library's: an error function, a ramp.
+namespace trueflank::test {
+namespace {
+
+/// From 0 to 1 about a place, from a tenth to nine tenths over such a length.
+double eased(double off, double length) { return 0.5 * (1.0 + std::erf(1.8124 * off / length)); }
+double ramp(double off, double length) { return std::clamp(0.5 + off / length, 0.0, 1.0); }
+
+Process stepped(double um, double at, double edge, bool opposite,
+                double (*course)(double, double) = eased) {
+  return grown([=](auto&, const FlankSpot& s, auto&) {
+    return um * (opposite ? s.side : 1) * course(s.v - at, edge);
+  });
+}
+
+/// The edge that a step is told with [mm]; 0: none.
+double told_edge_mm(const loop::LoopResult& result) {
+  std::smatch found;
+  const std::string text = list(result);
+  return std::regex_search(text, found, std::regex("a step over[^,]*, over ([0-9.]+) mm"))
+             ? std::stod(found[1])
+             : 0.0;
+}
+void expect_step(const loop::LoopResult& result, const std::string& words, std::size_t effects,
+                 loop::Verdict verdict = loop::Verdict::kExplained) {
+  EXPECT_TRUE(tells_of(result, "a step over")) << list(result);
+  EXPECT_TRUE(tells_of(result, words)) << list(result);
+  EXPECT_EQ(result.effects.size(), effects) << list(result);
+  EXPECT_EQ(result.verdict, verdict) << list(result);
+}
+
+TEST(SoftStep, OfScansIsOneFormWithTheLengthOfItsEdge) {
+  for (const MadeGear& gear : {spur(29), helical(24, 18.0)})
+    for (const double edge : {0.14, 0.26}) {  // of half the face
+      const auto result = close(
+          gear, scan_of(gear, {stepped(20.0, 0.24, edge, true)}, scanned(8000, 2.5, 21)), true);
+      expect_step(result, "opposite on the two flanks: above it the teeth stand counter-clockwise",
+                  1);
+      EXPECT_NEAR(told_edge_mm(result), 0.5 * edge * gear.face_mm, 0.2 * edge * gear.face_mm);
+    }
+}
+
+TEST(SoftStep, OfTracesIsOneForm) {
+  const MadeGear gear = spur(28);
+  std::vector<int> all(28);
+  std::iota(all.begin(), all.end(), 1);
+  for (const std::vector<int>& teeth : {std::vector<int>{1, 10, 19}, all})
+    expect_step(
+        close(gear, inspection_of(gear, {stepped(4.0, 0.3, 0.3, true)}, traced(teeth, 0.5, 22))),
+        "opposite on the two flanks", 1);
+  // The corners of a ramp are seen where all teeth show them, and said to be left.
+  expect_step(
+      close(gear, inspection_of(gear, {stepped(4.0, 0.3, 0.3, true, ramp)}, traced(all, 0.5, 22))),
+      "opposite on the two flanks", 1, loop::Verdict::kPartlyExplained);
+}
+
+TEST(SoftStep, StandsBesideNames) {
+  const MadeGear gear = spur(28);
+  std::vector<int> all(28);
+  std::iota(all.begin(), all.end(), 1);
+  const Process names =
+      grown([](auto&, const FlankSpot& s, auto&) { return 3.5 * s.v - 5.5 * s.v * s.v; });
+  const auto result = close(
+      gear, inspection_of(gear, {names, stepped(-2.6, -0.35, 0.2, true)}, traced(all, 0.7, 23)));
+  expect_step(result, "above it the teeth stand clockwise", 3);
+  expect_size(result, "taper", "slope_um", 7.0, 0.5);
+  expect_size(result, "crowning", "amount_um", 5.5, 0.5);
+}
+
+TEST(SoftStep, OfBothFlanksAlikeStandsBesideALevel) {
+  const MadeGear gear = spur(15);
+  const auto result = close(
+      gear,
+      scan_of(gear,
+              {stepped(-5.6, -0.1, 0.2, false), grown([](auto&, auto&, auto&) { return 5.6; })},
+              scanned(5000, 1.0, 24)),
+      true);
+  EXPECT_TRUE(tells_of(result, "a step over the face")) << list(result);
+  EXPECT_TRUE(tells_of(result, "above it the flanks lie back")) << list(result);
+  EXPECT_LE(result.effects.size(), 2U) << list(result);
+}
+
+// What is no step: a sharp one has no edge, and what runs all over the face bends.
+TEST(SoftStep, IsNotMadeOfASharpOneNorOfAnS) {
+  const MadeGear gear = spur(27);
+  const auto sharp =
+      close(gear, scan_of(gear, {stepped(20.0, 0.2, 1e-6, false)}, scanned(8000, 2.5, 25)), true);
+  EXPECT_TRUE(tells_of(sharp, "a step over the face")) << list(sharp);
+  EXPECT_EQ(told_edge_mm(sharp), 0.0) << list(sharp);
+  const auto s = close(gear,
+                       scan_of(gear, {grown([](auto&, const FlankSpot& f, auto&) {
+                                 return 12.0 * (f.v * f.v * f.v - 0.5 * f.v);
+                               })},
+                               scanned(8000, 1.5, 26)),
+                       true);
+  EXPECT_FALSE(tells_of(s, "a step")) << list(s);
+}
+
+}  // namespace
+}  // namespace trueflank::test
