@@ -104,6 +104,12 @@ TEST(SoftStep, IsNotMadeOfASharpOneNorOfAnS) {
                                scanned(8000, 1.5, 26)),
                        true);
   EXPECT_FALSE(tells_of(s, "a step")) << list(s);
+  // What dies away from an end rises towards it.
+  const auto end = close(gear, inspection_of(gear, {grown([](auto&, const FlankSpot& f, auto&) {
+                                               return 6.0 * f.side * std::exp(-(1.0 - f.v) / 0.19);
+                                             })},
+                                             traced({1, 7, 14, 21}, 0.4, 27)));
+  EXPECT_FALSE(tells_of(end, "a step")) << list(end);
 }
 
 }  // namespace

@@ -108,6 +108,10 @@ namespace trueflank::loop::gear_effects {
   return edge > 0.0 ? 1.0 / (1.0 + std::exp(-4.0 * off / edge)) : off > 0.0 ? 1.0 : 0.0;
 }
 
+/// False where flanks end before the edge of a step does: that is a rise towards an end.
+[[nodiscard]] bool is_step_with_edge(const FlankGeometry& g, double face, double place_mm,
+                                     double edge_mm);
+
 inline const TermKey kAlong{"along", TermKey::Kind::kWord, {"profile", "face"}};
 [[nodiscard]] inline TermKey number(const std::string& name) {
   return {name, TermKey::Kind::kNumber};

@@ -79,6 +79,13 @@ double along_profile(const FlankGeometry& geometry, double roll_mm) {
   return std::max(kFromBase, roll_mm / geometry.base_radius_mm());
 }
 
+bool is_step_with_edge(const FlankGeometry& g, double face, double place_mm, double edge_mm) {
+  constexpr double kRoom = 0.8;
+  const double share = share_at(g, face, place_mm);
+  return edge_mm == 0.0 ||
+         edge_mm <= kRoom * std::min(share, 1.0 - share) * std::abs(range_mm(g, face));
+}
+
 /// From nothing to 1 at its place, at once or over the length of an edge.
 EffectFamily unnamed_step() {
   constexpr std::size_t kEdge = 3;
@@ -104,6 +111,8 @@ EffectFamily unnamed_step() {
       shapes.push_back(shape);
       shapes.back()[kEdge] = other;
     }
+    std::erase_if(
+        shapes, [&](const EffectShape& s) { return !is_step_with_edge(g, s[0], s[1], s[kEdge]); });
     return shapes;
   };
   f.values_sought = [](const EffectShape& shape) { return shape[kEdge] > 0.0 ? 2 : 1; };

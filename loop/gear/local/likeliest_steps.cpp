@@ -92,7 +92,10 @@ std::vector<LikelyForms> likeliest_steps(const FlankGeometry& g, const OfTeeth& 
       Likely best;
       for (int place = 1; place < 2 * kProductCells; ++place) {
         const double share = 0.5 * place / kProductCells;
-        if (share < kNearestEnd || share > 1.0 - kNearestEnd) continue;
+        const double place_mm = gear_effects::place_at(g, face, share);
+        if (share < kNearestEnd || share > 1.0 - kNearestEnd ||
+            !gear_effects::is_step_with_edge(g, face, place_mm, edge * range))
+          continue;
         InCells course;
         for (Eigen::Index i = 0; i < kCells; ++i)
           course[i] = gear_effects::beyond_edge(at[i] - share, edge);
@@ -101,8 +104,7 @@ std::vector<LikelyForms> likeliest_steps(const FlankGeometry& g, const OfTeeth& 
         best = {taken.gain,
                 {find_family("unnamed_step"),
                  way.flank,
-                 {face, gear_effects::place_at(g, face, share), way.opposite ? 1.0 : 0.0,
-                  edge * range}}};
+                 {face, place_mm, way.opposite ? 1.0 : 0.0, edge * range}}};
       }
       if (!(best.gain > least)) continue;
       list.gain = std::max(list.gain, best.gain);
