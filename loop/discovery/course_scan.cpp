@@ -411,6 +411,16 @@ class CourseScan {
     return apart;
   }
 
+  /// Correlation of values at places beside each other, whatever few of them stand out.
+  [[nodiscard]] static double likeness_of_neighbours(const MatrixXd& set) {
+    const Index m = set.rows();
+    std::vector<double> steps, values(set.data(), set.data() + set.size());
+    for (Index c = 0; c < set.cols(); ++c)
+      for (Index i = 1; i < m; ++i) steps.push_back(set(i, c) - set(i - 1, c));
+    const double spread = robust_sigma(std::move(values)), step = robust_sigma(std::move(steps));
+    return spread > 0.0 ? 1.0 - 0.5 * step * step / (spread * spread) : 1.0;
+  }
+
   /// How rough courses are from place to place, as squares, and how rough each is usually.
   struct Roughness {
     MatrixXd squares;
@@ -446,9 +456,10 @@ class CourseScan {
   /// there as smoothly as elsewhere.
   void look_for_spots() {
     // Slow errors and single teeth far out have longer tails than windows of clipped values.
-    constexpr double kTailOfWhole = 12.0;
+    constexpr double kTailOfSlow = 12.0, kTailOfQuick = 60.0, kSlow = 0.4;
     std::vector<MatrixXd> clipped, whole;
     std::vector<Roughness> roughness_of_whole;
+    std::vector<double> tails;  // degrees of freedom
     for (std::size_t s = 0; s < sets_.size(); ++s) {
       // (a deep spot on one of few courses would stand in the plain mean)
       MatrixXd apart = clipped_[s];
@@ -459,6 +470,7 @@ class CourseScan {
       }
       clipped.push_back(std::move(apart));
       whole.push_back(apart_from_usual(sets_[s]));
+      tails.push_back(likeness_of_neighbours(whole.back()) < kSlow ? kTailOfQuick : kTailOfSlow);
       roughness_of_whole.push_back(roughness_of(whole.back()));
     }
     CourseFinding best{CourseKind::kSpot};
@@ -499,7 +511,8 @@ class CourseScan {
           double p = std::max(
               normal,
               least_chance(most / spread, louds_[static_cast<std::size_t>(s)].degrees, normal));
-          if (!clip) p = std::max(p, student_two_sided(most / spread, kTailOfWhole));
+          if (!clip)
+            p = std::max(p, student_two_sided(most / spread, tails[static_cast<std::size_t>(s)]));
           if (!(p < best.p_value)) continue;
           best.p_value = p;
           best.set = s;
