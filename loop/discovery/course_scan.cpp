@@ -455,11 +455,12 @@ class CourseScan {
   /// Windows in which a course stands apart: with wild points clipped; or as it is, where it runs
   /// there as smoothly as elsewhere.
   void look_for_spots() {
-    // Slow errors and single teeth far out have longer tails than windows of clipped values.
-    constexpr double kTailOfSlow = 12.0, kTailOfQuick = 60.0, kSlow = 0.4;
+    // Slow errors, louder courses and single teeth far out have longer tails than windows of
+    // clipped values.
+    constexpr double kTailOfSlow = 12.0, kTailOfQuick = 50.0, kSlow = 0.4;
     std::vector<MatrixXd> clipped, whole;
     std::vector<Roughness> roughness_of_whole;
-    std::vector<double> tails;  // degrees of freedom
+    std::vector<bool> quick;
     for (std::size_t s = 0; s < sets_.size(); ++s) {
       // (a deep spot on one of few courses would stand in the plain mean)
       MatrixXd apart = clipped_[s];
@@ -470,7 +471,7 @@ class CourseScan {
       }
       clipped.push_back(std::move(apart));
       whole.push_back(apart_from_usual(sets_[s]));
-      tails.push_back(likeness_of_neighbours(whole.back()) < kSlow ? kTailOfQuick : kTailOfSlow);
+      quick.push_back(likeness_of_neighbours(whole.back()) < kSlow);
       roughness_of_whole.push_back(roughness_of(whole.back()));
     }
     CourseFinding best{CourseKind::kSpot};
@@ -511,8 +512,11 @@ class CourseScan {
           double p = std::max(
               normal,
               least_chance(most / spread, louds_[static_cast<std::size_t>(s)].degrees, normal));
+          const auto set = static_cast<std::size_t>(s);
+          const bool as_usual = quick[set] && louds_[set].by[column] == 1.0;
           if (!clip)
-            p = std::max(p, student_two_sided(most / spread, tails[static_cast<std::size_t>(s)]));
+            p = std::max(p,
+                         student_two_sided(most / spread, as_usual ? kTailOfQuick : kTailOfSlow));
           if (!(p < best.p_value)) continue;
           best.p_value = p;
           best.set = s;

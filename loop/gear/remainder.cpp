@@ -84,9 +84,15 @@ class RemainderSearch {
         of_tooth.push_back(ToothMoments::at(side, one.number));
       }
       const std::vector<double> loud = loudness_of(own, values).factors;
+      std::vector<double> known = own;
+      std::erase(known, 0.0);
+      const double usual = known.empty() ? 0.0 : median(std::move(known));
       for (std::size_t k = 0; k < loud.size(); ++k) {
-        double& of = moments[of_tooth[k]].loud;
-        of = std::max(of, loud[k]);
+        ToothMoments& of = moments[of_tooth[k]];
+        of.loud = std::max(of.loud, loud[k]);
+        if (!(usual > 0.0) || own[k] / usual <= of.scatter) continue;
+        of.scatter = own[k] / usual;
+        of.scatter_values = values[k];
       }
     }
   }

@@ -25,6 +25,9 @@ struct ToothMoments {
   int count = 0;
   double total = 0.0, squares = 0.0;  ///< sums of the values and of their squares
   double loud = 1.0;  ///< the random error of its trace over that of the usual one
+  /// Its scatter from place to place over the usual one, and from how many values that is known: 0
+  /// where it is not.
+  double scatter = 0.0, scatter_values = 0.0;
 
   /// Height, slope and bow over the profile coordinate u and the face coordinate v (-1 ... 1): 1,
   /// u, v, u^2 - 1/3, v^2 - 1/3.

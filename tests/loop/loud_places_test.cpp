@@ -126,6 +126,17 @@ TEST(LoudPlaces, OfAScanAreNoSpotsAndNoEffects) {
   EXPECT_LE(alarms, 1) << told;
 }
 
+TEST(LoudPlaces, LouderFlanksOfASparseScanHaveNoFormOfTheirOwn) {
+  const MadeGear gear = spur(67);
+  const auto teeth = [](const FlankSpot& s) { return s.tooth % 13 == 3 ? 2.5 : 1.0; };
+  std::string told;
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    const auto result = of_scan(gear, seed, true, teeth);
+    if (tells_of(result, "a form of its own")) told += list(result) + "\n";
+  }
+  EXPECT_EQ(told, "");
+}
+
 TEST(LoudPlaces, OfAScanThatAreFarLouderAreARoughSurface) {
   const MadeGear gear = spur(29);
   const auto torn = [](const FlankSpot& s) { return s.v > 0.3 ? 8.0 : 1.0; };

@@ -81,7 +81,9 @@ class OddTeeth {
     const double spread = robust_sigma(std::move(apart));
     if (!(spread > 0.0)) return most;
     for (std::size_t i = 0; i < logs.size(); ++i) {
-      if (flanks[i].excess < kLeastTimes * kLeastTimes) continue;
+      if (flanks[i].excess < kLeastTimes * kLeastTimes ||
+          may_be_louder(flanks[i].side, flanks[i].tooth, flanks[i].excess))
+        continue;
       const double p = student_two_sided((logs[i] - middle) / spread, degrees_of(logs.size()));
       if (p >= most.p_value) continue;
       most = flanks[i];
@@ -106,6 +108,15 @@ class OddTeeth {
     const double n = own.count;
     return std::max(0.0, own.squares - own.total * own.total / n) /
            ((n - 1.0) * own.loud * own.loud);
+  }
+  /// True of a flank whose values scatter from place to place by so much more than usual that its
+  /// mean square, so many times the usual one, may be that alone.
+  [[nodiscard]] bool may_be_louder(int side, int tooth, double times) const {
+    constexpr double kSure = 3.0, kVarianceOfLog = 2.5;  // the latter over the number of values
+    const ToothMoments& own = of(side, tooth);
+    if (!(own.scatter > 1.0)) return false;
+    return 0.5 * std::log(times) + std::log(own.loud) <
+           std::log(own.scatter) + kSure * std::sqrt(kVarianceOfLog / own.scatter_values);
   }
   void tell_usual() {
     for (const int side : {0, 1}) {
