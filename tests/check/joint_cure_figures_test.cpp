@@ -338,5 +338,28 @@ TEST(JointCureFigures, TheSearchIsOverOnceItsDesignsOrTurnsAreSpent) {
   EXPECT_FALSE(ended(&JointCureOptions::most_turned, 1));
 }
 
+/// Planets and teeth of all designs for which parts were asked that nobody can make.
+std::set<std::vector<int>> teeth_tried(const GearboxDesign& design, int most_designs) {
+  const GearTrain train = laid_out(design);
+  std::set<std::vector<int>> tried;
+  const AroundGears none = [&](const GearTrain& gears) -> std::optional<Findings> {
+    std::vector<int> teeth{gears.design.planets};
+    for (const GearDesign& g : gears.design.gears) teeth.push_back(g.teeth);
+    tried.insert(teeth);
+    return std::nullopt;
+  };
+  const JointCure cure = joint_cure(
+      train, {}, {.most_designs = most_designs, .most_turned = 100000, .farther = false}, none);
+  EXPECT_FALSE(cure.changed);
+  return tried;
+}
+
+TEST(JointCureFigures, OfAPairAllTeethWithinThreeAreTriedAndOfASetFortyCounts) {
+  EXPECT_EQ(teeth_tried(pair_design(24, 60, false, 0.1), 450).size(), 7u * 7u);
+  const std::size_t of_set = teeth_tried(simple_design(13, 30, 73, 4), 100000).size();
+  EXPECT_GT(of_set, 20u);
+  EXPECT_LE(of_set, 40u + 1u);
+}
+
 }  // namespace
 }  // namespace trueflank::test

@@ -126,8 +126,8 @@ TEST(ShortenedTips, ThatAreWrittenStayWhereClearOnesAreNoShorterThanTheStandards
 TEST(ContactJudge, LooksAtOneLayerAsAtThatLayerOfTheWhole) {
   GearboxDesign design = paper_design(0.0);
   const GearTrain plain = laid_out(design);
-  for (const char* name : {"sun", "planet2"})  // into the mate's root
-    gear(design, name).tip_diameter_mm = 2.0 * plain.find(name)->profile.tip_radius_mm() + 0.8;
+  for (const auto& [name, longer] : {std::pair("sun", 0.8), {"planet2", 0.8}, {"ring2", -0.7}})
+    gear(design, name).tip_diameter_mm = 2.0 * plain.find(name)->profile.tip_radius_mm() + longer;
   const GearTrain train = laid_out(design);
   ContactJudge judge;
   const auto told = [](const Judgement& judgement, int layer) {
@@ -137,13 +137,15 @@ TEST(ContactJudge, LooksAtOneLayerAsAtThatLayerOfTheWhole) {
     return complaints;
   };
   const Judgement whole = ContactJudge::without_turning(train), turned = judge.by_turning(train);
-  int layers_with_complaints = 0;
+  int layers_with_complaints = 0, layers_turned = 0;
   for (const int layer : {1, 2}) {
     EXPECT_EQ(told(ContactJudge::without_turning(train, layer), 0), told(whole, layer)) << layer;
     EXPECT_EQ(told(judge.by_turning(train, layer), 0), told(turned, layer)) << layer;
     layers_with_complaints += told(whole, layer).empty() ? 0 : 1;
+    layers_turned += told(turned, layer).empty() ? 0 : 1;
   }
   EXPECT_EQ(layers_with_complaints, 2);
+  EXPECT_EQ(layers_turned, 2);
 }
 
 TEST(ContactJudge, ClearancesAreThoseOfTheTurnedTeeth) {
