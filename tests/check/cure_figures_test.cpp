@@ -86,6 +86,32 @@ TEST(DesignChangeFigures, OfTheCentreDistanceFollowTheTeeth) {
   EXPECT_FALSE(fitted.gears[1].shift);
 }
 
+TEST(DesignChangeFigures, AShiftAloneMovesTheLeadingGearAndNoneLeavesTheDesignAsItIs) {
+  GearboxDesign design = paper_design(0.05);
+  const GearTrain train = laid_out(design);
+  for (const double shift : {0.0, 0.2, -0.15})
+    for (const int layer : {1, 2}) {
+      const DesignChange change{.shift_of_layer = {{layer, shift}}};
+      EXPECT_EQ(change.moves_shifts(), shift != 0.0);
+      const GearboxDesign moved = changed_design(train, change, true);
+      if (shift == 0.0) {
+        GearboxDesign clear = design;
+        clear.tips = TipCircles::kClear;
+        EXPECT_EQ(moved, clear);
+        continue;
+      }
+      const std::size_t leads = layer == 1 ? 1 : 3;
+      for (std::size_t i = 0; i < 5; ++i) {
+        ASSERT_EQ(moved.gears[i].shift.has_value(), i == 1 || i == 3) << i;
+        if (moved.gears[i].shift) {
+          EXPECT_NEAR(*moved.gears[i].shift, train.gears[i].shift + (i == leads ? shift : 0.0),
+                      1e-4);
+        }
+      }
+      EXPECT_EQ(moved.centre_distance_mm, design.centre_distance_mm);
+    }
+}
+
 TEST(DesignChangeFigures, AShiftThatWasSolvedForAFarDistanceIsForgotten) {
   GearboxDesign design = pair_design(20, 40, false, 0.05);
   design.centre_distance_mm = 30.9;

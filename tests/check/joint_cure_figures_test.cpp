@@ -297,16 +297,21 @@ TEST(JointCureFigures, StagesThatFailAreCuredOneAfterTheOtherAndOthersLeftAlone)
 }
 
 TEST(JointCureFigures, LayersThatOverlapAreSetApartAndTheirGapIsTheOneThingChanged) {
-  GearboxDesign design = paper_design();
-  design.tips = TipCircles::kClear;
   const JointCureOptions soon{.most_designs = 30, .most_turned = 30, .farther = false};
-  ASSERT_FALSE(joint_cure(laid_out(design), soon).changed);
-  design.layer_gap_mm = -0.5;
-  const JointCure cure = joint_cure(laid_out(design), soon);
-  EXPECT_TRUE(cure.cured());
-  EXPECT_EQ(keys_of(design, cure.design), "gearbox.layer_gap_mm ");
-  EXPECT_GT(cure.design.layer_gap_mm, 0.0);
-  EXPECT_LE(cure.design.layer_gap_mm, 0.2 * design.module_mm);
+  for (const double module_mm : {1.0, 2.5}) {
+    GearboxDesign design = paper_design(0.05 * module_mm);
+    design.tips = TipCircles::kClear;
+    design.module_mm = module_mm;
+    *design.centre_distance_mm *= module_mm;
+    ASSERT_FALSE(joint_cure(laid_out(design), soon).changed);
+    design.layer_gap_mm = -0.7;
+    const JointCure cure = joint_cure(laid_out(design), soon);
+    EXPECT_TRUE(cure.cured());
+    EXPECT_EQ(keys_of(design, cure.design), "gearbox.layer_gap_mm ");
+    // set apart by a fifth of the module more than they lack, and back by eighths of the way
+    const double eighth = (0.7 + 0.2 * module_mm) / 8.0;
+    EXPECT_NEAR(cure.design.layer_gap_mm, -0.7 + eighth * (std::floor(0.7 / eighth) + 1.0), 1e-4);
+  }
 }
 
 TEST(JointCureFigures, WhatFailsTogetherInEveryDesignTriedIsToldTogether) {

@@ -111,6 +111,27 @@ TEST(ShortenedTips, ThatAreWrittenAndDigIntoAFilletEndWhereClearOnesDo) {
   EXPECT_FALSE(shorten_given(laid_out(design), complaint("fillet_interference"), none));
 }
 
+TEST(ShortenedTips, OfARingThatAreWrittenEndWhereClearOnesDoToo) {
+  GearboxDesign design = pair_design(20, 60, true, 0.05);
+  design.tips = TipCircles::kClear;
+  gear(design, "pinion").shift = gear(design, "wheel").shift = 0.0;
+  const GearTrain open = laid_out(design);
+  ASSERT_GT(open.gears[1].tip_shortened_mm, 0.0);
+  const double clear_mm = 2.0 * open.gears[1].profile.gear().tip_radius_mm;
+  const auto shortened = [&](double by_mm, const char* id) {
+    gear(design, "wheel").tip_diameter_mm = clear_mm - by_mm;
+    DesignChange change;
+    const Judgement judgement{
+        .complaints = {{.id = id, .layer = 1, .lacking = 0.1, .fails = true}}};
+    return shorten_given(laid_out(design), judgement, change) ? change.tip_diameter_mm.at(1) : 0.0;
+  };
+  EXPECT_NEAR(shortened(0.4, "fillet_interference"), clear_mm, 1.1e-3);
+  EXPECT_GE(shortened(0.4, "fillet_interference"), clear_mm);
+  EXPECT_EQ(shortened(-0.4, "fillet_interference"), 0.0);
+  EXPECT_NEAR(shortened(-0.4, "contact_ratio"), clear_mm, 1.1e-3);
+  EXPECT_EQ(shortened(0.4, "contact_ratio"), 0.0);
+}
+
 TEST(ShortenedTips, ThatAreWrittenStayWhereClearOnesAreNoShorterThanTheStandards) {
   GearboxDesign design = pair_design(30, 60, false, 0.05);
   design.tips = TipCircles::kClear;

@@ -101,5 +101,21 @@ TEST(ToldTolerances, AreThoseThatAreThereOfTheDesignFirst) {
   }
 }
 
+TEST(ToldTolerances, AClassOfTheProcessIsForGearsInsideTheStandardsScope) {
+  for (const bool inside : {true, false})
+    for (const double runout_mm : {0.0, 0.04}) {
+      GearboxDesign design = pair_design(20, 40, false, 0.1);
+      design.module_mm = inside ? 1.0 : 0.3;
+      design.made.process = Process{.name = "any", .tolerance_class = 8, .runout_mm = runout_mm};
+      const auto told = design_tolerances(laid_out(design));
+      const std::string text = inside ? "ISO class 8" : runout_mm > 0.0 ? "runout 40 um" : "";
+      ASSERT_EQ(told.has_value(), !text.empty());
+      if (told) {
+        EXPECT_EQ(told->text, text);
+        EXPECT_FALSE(told->asked);
+      }
+    }
+}
+
 }  // namespace
 }  // namespace trueflank::test
