@@ -142,5 +142,14 @@ TEST(DrawnTolerances, AllOrNoneAreWholeShares) {
   }
 }
 
+TEST(DrawnTolerances, WithinWhichTeethNoLongerMeshAreAnErrorOfTheirMesh) {
+  const GearTrain train = laid_out(simple_design(20, 32, 84, 3));
+  const auto told = analyse_tolerances(train, {.centre_distance_um = 3000.0, .sets = 10});
+  ASSERT_FALSE(told);
+  const std::string start =
+      train.meshes[0].name + " at the limits of its tolerances: at centre distance ";
+  EXPECT_EQ(told.error().message.find(start), 0u) << told.error().message;
+}
+
 }  // namespace
 }  // namespace trueflank::test

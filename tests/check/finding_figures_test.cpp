@@ -530,6 +530,23 @@ TEST(ManufacturabilityFigures, WhatIsAsLargeAsTheProcessWantsIsLargeEnough) {
   EXPECT_NEAR(number_after(two.message, "root form circle "), gap, 1e-4) << two.message;
 }
 
+TEST(ManufacturabilityFigures, TheRimOfARingIsFromItsRootsOutwards) {
+  GearboxDesign d = pair_design(20, 60, true, 0.1);
+  const double root = laid_out(d).gears[1].profile.root_radius_mm();
+  for (const double less : {-0.2, 0.2}) {
+    d.made.process = Process{.name = "p", .least_wall_mm = 3.0 + less};
+    gear(d, "wheel").outer_diameter_mm = 2.0 * (root + 3.0);
+    const Finding f = only(check_manufacturability(laid_out(d)), "manufacturability", "wheel");
+    EXPECT_EQ(f.status, less > 0.0 ? CheckStatus::kWarn : CheckStatus::kPass) << f.message;
+    EXPECT_NEAR(f.value, 3.0, 1e-9);
+    EXPECT_NEAR(f.margin, -less, 1e-9);
+    EXPECT_EQ(f.cure, less > 0.0 ? "a larger outer_diameter_mm" : "");
+    gear(d, "wheel").outer_diameter_mm.reset();  // a rim that is not said is as thick as it must be
+    EXPECT_EQ(only(check_manufacturability(laid_out(d)), "manufacturability", "wheel").status,
+              CheckStatus::kPass);
+  }
+}
+
 TEST(ManufacturabilityFigures, RootRadiusOfARackIsTheStandards) {
   // ISO 6336-3 at the bottom of the trochoid: rho + 2 G^2 / (z - 2 G), G = rho - h_fP + x
   for (const int teeth : {20, 33, 60, 120})
