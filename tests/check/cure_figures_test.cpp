@@ -13,6 +13,7 @@
 #include "trueflank/check/cure/joint_cure.h"
 #include "trueflank/check/cure/joint_cure_moves.h"
 #include "trueflank/check/cure/needed_changes.h"
+#include "trueflank/check/design_tolerances.h"
 
 // What cures are put together from, by counting and by formulas.
 namespace trueflank::test {
@@ -420,17 +421,28 @@ TEST(NeededChanges, TakeBackShiftsThatFitEachOtherTogether) {
   EXPECT_EQ(with_needed_changes(train, {changed, {}}, fit, 100).design, train.design);
 }
 
-TEST(JointCureFigures, WhereBacklashAloneIsLackingBacklashAloneIsAdded) {
-  GearboxDesign design = pair_design(24, 60, false, 0.0);
-  design.tips = TipCircles::kClear;
-  design.made.tolerance_class = 7;
-  const JointCure cure = joint_cure(laid_out(design));
-  ASSERT_TRUE(cure.changed && cure.cured()) << cure.conflict;
-  EXPECT_GT(cure.design.backlash_mm, 0.0);
-  EXPECT_LT(cure.design.backlash_mm, 0.2);
-  GearboxDesign expected = design;
-  expected.backlash_mm = cure.design.backlash_mm;
-  EXPECT_EQ(cure.design, expected);
+TEST(JointCureFigures, WhereBacklashAloneIsLackingSoMuchBacklashAloneIsAdded) {
+  for (const double module_mm : {1.0, 2.0})
+    for (const bool tolerances : {true, false}) {
+      GearboxDesign design = pair_design(24, 60, false, 0.0);
+      design.module_mm = module_mm;
+      design.tips = TipCircles::kClear;
+      if (tolerances)
+        design.made.tolerance_class = 7;
+      else
+        design.made.clearance_mm = 0.03;
+      const GearTrain train = laid_out(design);
+      const double lacking_mm =
+          std::max(lacking_backlash_mm(train), lacking_for_clearance_mm(train));
+      ASSERT_GT(lacking_mm, 0.02);
+      const JointCure cure = joint_cure(train, {.farther = false});
+      ASSERT_TRUE(cure.changed && cure.cured()) << cure.conflict;
+      EXPECT_GE(cure.design.backlash_mm, lacking_mm);
+      EXPECT_LE(cure.design.backlash_mm, lacking_mm + 3e-4);  // as it is written
+      GearboxDesign expected = design;
+      expected.backlash_mm = cure.design.backlash_mm;
+      EXPECT_EQ(cure.design, expected);
+    }
 }
 
 TEST(JointCureFigures, WhatNothingClearsIsNamed) {
