@@ -133,16 +133,6 @@ TEST(RadialRemovalFigures, OfTeethWhoseFlanksDifferAreThoseOfWholePolygonsToo) {
   EXPECT_LE(counted.close, 20);
 }
 
-// Without play every flank in the mesh touches its mate.
-TEST(RadialRemovalFigures, FlanksThatOnlyTouchDoNotKeepThePinion) {
-  for (const auto& [z1, z2] : {std::pair(12, 60), {17, 70}, {24, 90}}) {
-    const GearTrain touching = laid_out(pair_design(z1, z2, true, 0.0)),
-                    free = laid_out(pair_design(z1, z2, true, 0.05));
-    EXPECT_TRUE(radial_removal(free.pair(free.meshes[0])).at_every_rotation) << z1;
-    EXPECT_TRUE(radial_removal(touching.pair(touching.meshes[0])).at_every_rotation) << z1;
-  }
-}
-
 TEST(RadialRemovalFigures, SectionsOfAFaceLeaveTogetherAndOverTheirTwist) {
   const GearTrain one = laid_out(pair_design(20, 34, true, 0.1));
   const GearTrain two = laid_out(pair_design(20, 34, true, 0.4));
