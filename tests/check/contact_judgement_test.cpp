@@ -14,7 +14,10 @@
 #include "tests/check/random_pairs.h"
 #include "trueflank/base/tolerance.h"
 #include "trueflank/check/check_gearbox.h"
+#include "trueflank/check/clearance/modified_clearance.h"
+#include "trueflank/check/corner_contact.h"
 #include "trueflank/check/mesh_clearance.h"
+#include "trueflank/check/ring_criteria.h"
 
 namespace trueflank::test {
 namespace {
@@ -150,6 +153,7 @@ TEST(ContactJudge, ComplainsOfClearancesThatAreMissingAndOfTheirShareOfTheModule
 }
 
 TEST(ContactJudge, TheTipInTheWayIsTheOneThatIsTooLong) {
+  int cured = 0;
   for (const bool ring : {false, true})
     for (const double backlash_mm : {0.0, 0.05})
       for (const char* longer : {"pinion", "wheel"}) {
@@ -162,9 +166,49 @@ TEST(ContactJudge, TheTipInTheWayIsTheOneThatIsTooLong) {
         ContactJudge judge;
         const ContactJudge::Clearances& c = judge.clearances(train, train.meshes[0]);
         EXPECT_LT(c.centred_mm, 0.0);
+        // the check of the same teeth names the same tip; where the other one is in the way as
+        // well, none
+        const Finding corner =
+            only(check_corner_contact(train, mesh_states(train)), "corner_contact");
+        if (corner.cure.find("tip diameter of ") != std::string::npos) {
+          EXPECT_EQ(corner.cure.find(std::string("tip diameter of ") + longer + " "), 0u)
+              << corner.cure;
+          ++cured;
+        }
         EXPECT_EQ(c.tip_of_gear1, longer == std::string("pinion"))
             << ring << ' ' << backlash_mm << ' ' << longer;
       }
+  EXPECT_GE(cured, 6);
+}
+
+TEST(MeshStates, OfATrainAreThoseOfItsMeshesAlone) {
+  GearboxDesign modified = paper_design(0.06);
+  gear(modified, "planet1").modifications.crowning_um = 12.0;
+  gear(modified, "ring2").modifications.profile_slope_um = 8.0;
+  for (const GearboxDesign& design : {paper_design(0.06), modified, pair_design(19, 53, true, 0.05),
+                                      pair_design(19, 37, false, 0.05)}) {
+    const GearTrain train = laid_out(design);
+    const std::vector<MeshState> states = mesh_states(train);
+    ASSERT_EQ(states.size(), train.meshes.size());
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      SCOPED_TRACE(train.meshes[i].name);
+      const GearPair pair = train.pair(train.meshes[i]);
+      const bool plain = std::isnan(states[i].centred.z_mm);
+      if (plain) {
+        EXPECT_EQ(states[i].centred.clearance_mm, mesh_clearance(pair).clearance_mm);
+        EXPECT_EQ(states[i].driving.clearance_mm, driving_clearance(pair).clearance_mm);
+      } else {
+        EXPECT_EQ(states[i].centred.clearance_mm, modified_clearance_mm(train, train.meshes[i]));
+      }
+      ASSERT_EQ(states[i].removal.has_value(), pair.internal());
+      if (!pair.internal()) continue;
+      const RadialRemoval alone =
+          plain ? radial_removal(pair) : modified_removal(train, train.meshes[i]);
+      EXPECT_EQ(states[i].removal->free_at, alone.free_at);
+      EXPECT_EQ(states[i].removal->free_share, alone.free_share);
+      EXPECT_EQ(states[i].removal->at_every_rotation, alone.at_every_rotation);
+    }
+  }
 }
 
 }  // namespace
