@@ -251,6 +251,20 @@ TEST(JointCureFigures, StartsAgainFromAStandardRackWhereNothingNearPasses) {
   EXPECT_EQ(text_of(design, cure), "rack.addendum 0.6219; rack.dedendum 1.0; (not ended)");
 }
 
+TEST(JointCureFigures, GoesOnToTheNextStartWhereOneIsNotCured) {
+  GearboxDesign design = pair_design(18, 34, false, 0.1);
+  design.tips = TipCircles::kClear;
+  design.rack.pressure_angle_rad = rad_from_deg(30.0);
+  design.rack.addendum = 0.1;  // too short half way to the standard rack, too
+  design.rack.dedendum = 0.35;
+  design.rack.root_radius = 0.1;
+  const JointCure cure = joint_cure(laid_out(design), {.most_designs = 2, .most_turned = 2});
+  EXPECT_TRUE(cure.cured());
+  EXPECT_TRUE(cure.changed);
+  EXPECT_EQ(cure.design.gears[0].teeth, 18);
+  EXPECT_GT(cure.design.rack.addendum, 0.6);
+}
+
 TEST(JointCureFigures, ATipThatTurningShowsInTheWayIsShortenedAlone) {
   const std::string key = "wheel.tip_diameter_mm ";
   for (const auto& [pinion, tip] : {std::pair(18, "22.847"), {25, "29.85"}, {32, "36.861"}}) {
