@@ -214,6 +214,37 @@ TEST(JointCureFigures, AHousingOfFixedSizeGrowsWhereThatHelps) {
   EXPECT_FALSE(none.changed);
 }
 
+TEST(JointCureFigures, AHousingOfFixedSizeStaysWhereALargerOneFailsMore) {
+  GearboxDesign design = lacking_backlash();
+  design.machine.emplace().housing.outer_diameter_mm = 100.0;
+  const GearTrain train = laid_out(design);
+  const AroundGears around = [](const GearTrain& gears) -> std::optional<Findings> {
+    const bool fixed = gears.design.machine->housing.outer_diameter_mm.has_value();
+    return Findings{of("housing", "housing", kFail), of("housing", "lid", fixed ? kPass : kFail),
+                    of("housing", "screws", fixed ? kPass : kFail)};
+  };
+  Findings before = check_gearbox(train);
+  const Findings of_parts = around(train).value();
+  before.insert(before.end(), of_parts.begin(), of_parts.end());
+  const JointCure cure =
+      joint_cure(train, before, {.most_designs = 20, .most_turned = 20, .farther = false}, around);
+  EXPECT_TRUE(cure.changed);
+  EXPECT_EQ(keys_of(design, cure.design), "gearbox.backlash_mm ");
+}
+
+TEST(JointCureFigures, ACentreDistanceIsMovedNoFartherThanItMustBe) {
+  GearboxDesign design = pair_design(24, 60, false, 0.1);
+  design.tips = TipCircles::kClear;
+  design.centre_distance_mm = 40.2;
+  const JointCure cure =
+      joint_cure(laid_out(design), {.most_designs = 600, .most_turned = 60, .farther = false});
+  ASSERT_TRUE(cure.cured());
+  EXPECT_EQ(keys_of(design, cure.design), "gearbox.centre_distance_mm pinion.shift ");
+  // by steps of a tenth of a module, less than an eighth of one
+  EXPECT_GT(*cure.design.centre_distance_mm, 40.2);
+  EXPECT_LT(*cure.design.centre_distance_mm, 40.2 + 0.1 / 8.0 - 1e-4);
+}
+
 TEST(JointCureFigures, WhatFailsAroundTheGearsAloneIsNoReasonToLookFarther) {
   GearboxDesign design = pair_design(24, 60, false, 0.1);
   design.tips = TipCircles::kClear;
