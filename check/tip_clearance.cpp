@@ -8,11 +8,13 @@ namespace trueflank {
 namespace {
 
 constexpr double kWantedClearance = 0.1;  // of the module
+/// Standard tips have equal clearances but for rounding: of these the first is named.
+constexpr double kEqualClearance_mm = 1e-9;
 
 Finding tip_clearance_finding(const GearTrain& train, const TrainMesh& mesh) {
   const GearPair pair = train.pair(mesh);
   const double of1 = tip_clearance_of_gear1_mm(pair), of2 = tip_clearance_of_gear2_mm(pair);
-  const bool first = of1 <= of2;
+  const bool first = of1 <= of2 + kEqualClearance_mm;
   const double smaller = first ? of1 : of2;
   const double wanted = kWantedClearance * pair.gear1().normal_module_mm;
   const std::string &name1 = gear1_name(train, mesh), &name2 = gear2_name(train, mesh);

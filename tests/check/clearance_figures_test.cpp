@@ -248,6 +248,37 @@ TEST(GearDistance, KeepsASplineForItsOwnErrorAndItsOwnEndsAlone) {
   }
 }
 
+TEST(GearDistance, OfAFlankInManyPiecesIsThatOfTheWholeFlank) {
+  for (const bool ring : {false, true}) {
+    const GearTrain train = laid_out(pair_design(19, 47, ring, 0.1));
+    const ToothProfile& profile = train.gears[ring ? 1 : 0].profile;
+    std::vector<ProfilePiece> parts;
+    for (const ProfilePiece& piece : profile.pieces()) {
+      const int n = piece.kind == PieceKind::kInvolute ? 9 : 1;
+      for (int i = 0; i < n; ++i) {
+        ProfilePiece part = piece;
+        part.curve.begin =
+            std::lerp(piece.curve.begin, piece.curve.end, static_cast<double>(i) / n);
+        part.curve.end = std::lerp(piece.curve.begin, piece.curve.end, (i + 1.0) / n);
+        parts.push_back(part);
+      }
+    }
+    const ToothProfile divided = profile.with_pieces(parts);
+    const GearDistance whole(profile), of_parts(divided);
+    const double tip = profile.tip_radius_mm(), root = profile.root_radius_mm();
+    Draw draw(17);
+    GearDistance::Before before;
+    for (int i = 0; i < 400; ++i) {
+      const Point2 p =
+          draw(std::min(tip, root) - 0.3, std::max(tip, root) + 0.3) * unit_vector(draw(-0.5, 0.5));
+      EXPECT_NEAR(of_parts.nearest(p).distance_mm, whole.nearest(p).distance_mm, 1e-9)
+          << p.transpose();
+      EXPECT_NEAR(of_parts.nearest(p, before).distance_mm, whole.nearest(p).distance_mm, 1e-9)
+          << p.transpose();
+    }
+  }
+}
+
 TEST(GearDistance, OfTeethWhoseHalvesDifferIsThatOfBothHalves) {
   GearboxDesign design = pair_design(19, 37, false, 0.1);
   gear(design, "pinion").modifications.helix_slope_um = 60.0;

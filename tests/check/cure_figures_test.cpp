@@ -13,6 +13,7 @@
 #include "trueflank/check/cure/joint_cure.h"
 #include "trueflank/check/cure/joint_cure_moves.h"
 #include "trueflank/check/cure/needed_changes.h"
+#include "trueflank/check/design_tolerances.h"
 
 // What cures are put together from, by counting and by formulas.
 namespace trueflank::test {
@@ -84,6 +85,32 @@ TEST(DesignChangeFigures, OfTheCentreDistanceFollowTheTeeth) {
   EXPECT_EQ(fitted.centre_distance_mm, 30.2);
   EXPECT_EQ(fitted.gears[0].shift, 0.1);
   EXPECT_FALSE(fitted.gears[1].shift);
+}
+
+TEST(DesignChangeFigures, AShiftAloneMovesTheLeadingGearAndNoneLeavesTheDesignAsItIs) {
+  GearboxDesign design = paper_design(0.05);
+  const GearTrain train = laid_out(design);
+  for (const double shift : {0.0, 0.2, -0.15})
+    for (const int layer : {1, 2}) {
+      const DesignChange change{.shift_of_layer = {{layer, shift}}};
+      EXPECT_EQ(change.moves_shifts(), shift != 0.0);
+      const GearboxDesign moved = changed_design(train, change, true);
+      if (shift == 0.0) {
+        GearboxDesign clear = design;
+        clear.tips = TipCircles::kClear;
+        EXPECT_EQ(moved, clear);
+        continue;
+      }
+      const std::size_t leads = layer == 1 ? 1 : 3;
+      for (std::size_t i = 0; i < 5; ++i) {
+        ASSERT_EQ(moved.gears[i].shift.has_value(), i == 1 || i == 3) << i;
+        if (moved.gears[i].shift) {
+          EXPECT_NEAR(*moved.gears[i].shift, train.gears[i].shift + (i == leads ? shift : 0.0),
+                      1e-4);
+        }
+      }
+      EXPECT_EQ(moved.centre_distance_mm, design.centre_distance_mm);
+    }
 }
 
 TEST(DesignChangeFigures, AShiftThatWasSolvedForAFarDistanceIsForgotten) {
@@ -394,17 +421,28 @@ TEST(NeededChanges, TakeBackShiftsThatFitEachOtherTogether) {
   EXPECT_EQ(with_needed_changes(train, {changed, {}}, fit, 100).design, train.design);
 }
 
-TEST(JointCureFigures, WhereBacklashAloneIsLackingBacklashAloneIsAdded) {
-  GearboxDesign design = pair_design(24, 60, false, 0.0);
-  design.tips = TipCircles::kClear;
-  design.made.tolerance_class = 7;
-  const JointCure cure = joint_cure(laid_out(design));
-  ASSERT_TRUE(cure.changed && cure.cured()) << cure.conflict;
-  EXPECT_GT(cure.design.backlash_mm, 0.0);
-  EXPECT_LT(cure.design.backlash_mm, 0.2);
-  GearboxDesign expected = design;
-  expected.backlash_mm = cure.design.backlash_mm;
-  EXPECT_EQ(cure.design, expected);
+TEST(JointCureFigures, WhereBacklashAloneIsLackingSoMuchBacklashAloneIsAdded) {
+  for (const double module_mm : {1.0, 2.0})
+    for (const bool tolerances : {true, false}) {
+      GearboxDesign design = pair_design(24, 60, false, 0.0);
+      design.module_mm = module_mm;
+      design.tips = TipCircles::kClear;
+      if (tolerances)
+        design.made.tolerance_class = 7;
+      else
+        design.made.clearance_mm = 0.03;
+      const GearTrain train = laid_out(design);
+      const double lacking_mm =
+          std::max(lacking_backlash_mm(train), lacking_for_clearance_mm(train));
+      ASSERT_GT(lacking_mm, 0.02);
+      const JointCure cure = joint_cure(train, {.farther = false});
+      ASSERT_TRUE(cure.changed && cure.cured()) << cure.conflict;
+      EXPECT_GE(cure.design.backlash_mm, lacking_mm);
+      EXPECT_LE(cure.design.backlash_mm, lacking_mm + 3e-4);  // as it is written
+      GearboxDesign expected = design;
+      expected.backlash_mm = cure.design.backlash_mm;
+      EXPECT_EQ(cure.design, expected);
+    }
 }
 
 TEST(JointCureFigures, WhatNothingClearsIsNamed) {

@@ -236,6 +236,21 @@ TEST(TipClearanceFigures, OfEqualTipsTheFirstIsNamed) {
   EXPECT_NEAR(number_after(f.cure, "tip diameter of pinion of "), 32.3, 1e-6) << f.cure;
 }
 
+TEST(TipClearanceFigures, OfStandardTipsAreEqualWhateverTheShifts) {
+  for (int i = 0; i < 60; ++i) {
+    GearboxDesign d = pair_design(18 + i, 41, false);
+    d.module_mm = 1.0 + 0.1 * (i % 7);
+    d.gears[0].shift = 0.013 * i - 0.3;
+    d.gears[1].shift = 0.7 - 0.009 * i;
+    d.rack.dedendum = 1.05;
+    const Finding f = check_tip_clearance(laid_out(d))[0];
+    ASSERT_EQ(f.status, CheckStatus::kWarn) << f.message;
+    EXPECT_EQ(number_after(f.message, "root of wheel "),
+              number_after(f.message, "root of pinion "));
+    EXPECT_EQ(f.cure.find("a tip diameter of pinion "), 0u) << f.cure;
+  }
+}
+
 /// Where the flanks of a tooth without backlash meet, by bisection; module 1.
 double pointed_diameter(int teeth, double shift) {
   double low = teeth * kCos20, high = 2.0 * teeth;

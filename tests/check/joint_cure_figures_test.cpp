@@ -214,6 +214,37 @@ TEST(JointCureFigures, AHousingOfFixedSizeGrowsWhereThatHelps) {
   EXPECT_FALSE(none.changed);
 }
 
+TEST(JointCureFigures, AHousingOfFixedSizeStaysWhereALargerOneFailsMore) {
+  GearboxDesign design = lacking_backlash();
+  design.machine.emplace().housing.outer_diameter_mm = 100.0;
+  const GearTrain train = laid_out(design);
+  const AroundGears around = [](const GearTrain& gears) -> std::optional<Findings> {
+    const bool fixed = gears.design.machine->housing.outer_diameter_mm.has_value();
+    return Findings{of("housing", "housing", kFail), of("housing", "lid", fixed ? kPass : kFail),
+                    of("housing", "screws", fixed ? kPass : kFail)};
+  };
+  Findings before = check_gearbox(train);
+  const Findings of_parts = around(train).value();
+  before.insert(before.end(), of_parts.begin(), of_parts.end());
+  const JointCure cure =
+      joint_cure(train, before, {.most_designs = 20, .most_turned = 20, .farther = false}, around);
+  EXPECT_TRUE(cure.changed);
+  EXPECT_EQ(keys_of(design, cure.design), "gearbox.backlash_mm ");
+}
+
+TEST(JointCureFigures, ACentreDistanceIsMovedNoFartherThanItMustBe) {
+  GearboxDesign design = pair_design(24, 60, false, 0.1);
+  design.tips = TipCircles::kClear;
+  design.centre_distance_mm = 40.2;
+  const JointCure cure =
+      joint_cure(laid_out(design), {.most_designs = 600, .most_turned = 60, .farther = false});
+  ASSERT_TRUE(cure.cured());
+  EXPECT_EQ(keys_of(design, cure.design), "gearbox.centre_distance_mm pinion.shift ");
+  // by steps of a tenth of a module, less than an eighth of one
+  EXPECT_GT(*cure.design.centre_distance_mm, 40.2);
+  EXPECT_LT(*cure.design.centre_distance_mm, 40.2 + 0.1 / 8.0 - 1e-4);
+}
+
 TEST(JointCureFigures, WhatFailsAroundTheGearsAloneIsNoReasonToLookFarther) {
   GearboxDesign design = pair_design(24, 60, false, 0.1);
   design.tips = TipCircles::kClear;
@@ -249,6 +280,20 @@ TEST(JointCureFigures, StartsAgainFromAStandardRackWhereNothingNearPasses) {
   EXPECT_FALSE(cure.search_ended);
   // of the way to the addendum of 1 a half, and five eighths of that
   EXPECT_EQ(text_of(design, cure), "rack.addendum 0.6219; rack.dedendum 1.0; (not ended)");
+}
+
+TEST(JointCureFigures, GoesOnToTheNextStartWhereOneIsNotCured) {
+  GearboxDesign design = pair_design(18, 34, false, 0.1);
+  design.tips = TipCircles::kClear;
+  design.rack.pressure_angle_rad = rad_from_deg(30.0);
+  design.rack.addendum = 0.1;  // too short half way to the standard rack, too
+  design.rack.dedendum = 0.35;
+  design.rack.root_radius = 0.1;
+  const JointCure cure = joint_cure(laid_out(design), {.most_designs = 2, .most_turned = 2});
+  EXPECT_TRUE(cure.cured());
+  EXPECT_TRUE(cure.changed);
+  EXPECT_EQ(cure.design.gears[0].teeth, 18);
+  EXPECT_GT(cure.design.rack.addendum, 0.6);
 }
 
 TEST(JointCureFigures, ATipThatTurningShowsInTheWayIsShortenedAlone) {
@@ -297,16 +342,21 @@ TEST(JointCureFigures, StagesThatFailAreCuredOneAfterTheOtherAndOthersLeftAlone)
 }
 
 TEST(JointCureFigures, LayersThatOverlapAreSetApartAndTheirGapIsTheOneThingChanged) {
-  GearboxDesign design = paper_design();
-  design.tips = TipCircles::kClear;
   const JointCureOptions soon{.most_designs = 30, .most_turned = 30, .farther = false};
-  ASSERT_FALSE(joint_cure(laid_out(design), soon).changed);
-  design.layer_gap_mm = -0.5;
-  const JointCure cure = joint_cure(laid_out(design), soon);
-  EXPECT_TRUE(cure.cured());
-  EXPECT_EQ(keys_of(design, cure.design), "gearbox.layer_gap_mm ");
-  EXPECT_GT(cure.design.layer_gap_mm, 0.0);
-  EXPECT_LE(cure.design.layer_gap_mm, 0.2 * design.module_mm);
+  for (const double module_mm : {1.0, 2.5}) {
+    GearboxDesign design = paper_design(0.05 * module_mm);
+    design.tips = TipCircles::kClear;
+    design.module_mm = module_mm;
+    *design.centre_distance_mm *= module_mm;
+    ASSERT_FALSE(joint_cure(laid_out(design), soon).changed);
+    design.layer_gap_mm = -0.7;
+    const JointCure cure = joint_cure(laid_out(design), soon);
+    EXPECT_TRUE(cure.cured());
+    EXPECT_EQ(keys_of(design, cure.design), "gearbox.layer_gap_mm ");
+    // set apart by a fifth of the module more than they lack, and back by eighths of the way
+    const double eighth = (0.7 + 0.2 * module_mm) / 8.0;
+    EXPECT_NEAR(cure.design.layer_gap_mm, -0.7 + eighth * (std::floor(0.7 / eighth) + 1.0), 1e-4);
+  }
 }
 
 TEST(JointCureFigures, WhatFailsTogetherInEveryDesignTriedIsToldTogether) {
@@ -336,6 +386,32 @@ TEST(JointCureFigures, TheSearchIsOverOnceItsDesignsOrTurnsAreSpent) {
   EXPECT_FALSE(ended(&JointCureOptions::most_designs, 2));
   EXPECT_TRUE(ended(&JointCureOptions::most_turned, 2));
   EXPECT_FALSE(ended(&JointCureOptions::most_turned, 1));
+}
+
+/// Planets and teeth of all designs for which parts were asked that nobody can make.
+std::set<std::vector<int>> teeth_tried(const GearboxDesign& design, int most_designs) {
+  const GearTrain train = laid_out(design);
+  std::set<std::vector<int>> tried;
+  const AroundGears none = [&](const GearTrain& gears) -> std::optional<Findings> {
+    std::vector<int> teeth{gears.design.planets};
+    for (const GearDesign& g : gears.design.gears) teeth.push_back(g.teeth);
+    tried.insert(teeth);
+    return std::nullopt;
+  };
+  const JointCure cure = joint_cure(
+      train, {}, {.most_designs = most_designs, .most_turned = 100000, .farther = false}, none);
+  EXPECT_FALSE(cure.changed);
+  return tried;
+}
+
+TEST(JointCureFigures, OfAPairAllTeethWithinThreeAreTried) {
+  EXPECT_EQ(teeth_tried(pair_design(24, 60, false, 0.1), 450).size(), 7u * 7u);
+}
+
+TEST(JointCureFigures, OfASetThatDoesNotMeshFortyCountsOfTeethAreTried) {
+  const std::size_t of_set = teeth_tried(simple_design(13, 30, 73, 4), 100000).size();
+  EXPECT_GT(of_set, 20u);
+  EXPECT_LE(of_set, 40u + 1u);
 }
 
 }  // namespace

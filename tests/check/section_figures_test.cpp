@@ -99,6 +99,29 @@ TEST(ClearanceField, IsThatOfTurnedTeethAtTheCornersOfItsCellsAndPlaneBetweenThe
   EXPECT_LT(hand.halved, 280);
 }
 
+TEST(ClearanceField, OfFlanksAloneIsSoNearAPlaneThatNoCellIsHalved) {
+  GearboxDesign design = pair_design(31, 52, false, 0.02);
+  design.rack.addendum = 0.7;
+  const GearTrain train = laid_out(design);
+  const GearPair pair = train.pair(train.meshes[0]);
+  const GearSpread spread1{.thickness_mm = 0.02, .eccentricity_mm = 0.003},
+      spread2{.thickness_mm = 0.015};
+  auto field = ClearanceField::make(train, train.meshes[0], spread1, spread2, 0.007);
+  ASSERT_TRUE(field);
+  FieldByHand hand(pair, 0.01, 0.02, 0.015);
+  Draw draw(32);
+  int jam = 0;
+  for (int i = 0; i < 150; ++i) {
+    const double distance = draw(-0.01, 0.01), thickness = draw(-0.035, 0.035);
+    const double told = field->clearance_mm(distance, thickness);
+    EXPECT_NEAR(told, hand.clearance(distance, thickness), 1e-12) << distance << ' ' << thickness;
+    jam += told < 0.0 ? 1 : 0;
+  }
+  EXPECT_EQ(hand.halved, 0);
+  EXPECT_GT(jam, 10);
+  EXPECT_LT(jam, 140);
+}
+
 TEST(ClearanceField, ThatReachesWhereTeethNoLongerMeshSaysSo) {
   const GearTrain train = laid_out(pair_design(13, 19, false, 0.05));
   const auto field = ClearanceField::make(train, train.meshes[0], {}, {}, 2.0);

@@ -277,6 +277,80 @@ TEST(SweepClearance, IsNoMoreThanThatOfAnySampleInAnyColumn) {
   }
 }
 
+/// The least distance of a gear's points around a place from its mate, as both turn a little on.
+double least_around_mm(const GearPair& pair, const MeshPlace& place, bool gear1_moves) {
+  const ToothProfile& mover = gear1_moves ? *pair.profile1 : *pair.profile2;
+  const GearDistance mate(gear1_moves ? *pair.profile2 : *pair.profile1);
+  const double z1 = pair.gear1().teeth, z2 = pair.gear2().teeth, m = pair.gear1().normal_module_mm;
+  const Point2 axis2(pair.internal() ? -pair.centre_distance_mm : pair.centre_distance_mm, 0.0);
+  const Point2 axis = gear1_moves ? Point2(0.0, 0.0) : axis2,
+               axis_of_mate = gear1_moves ? axis2 : Point2(0.0, 0.0);
+  const double turn = gear1_moves ? place.rotation1_rad : place.rotation2_rad,
+               turn_of_mate = gear1_moves ? place.rotation2_rad : place.rotation1_rad;
+  const double ratio = (pair.internal() ? 1.0 : -1.0) * (gear1_moves ? z1 / z2 : z2 / z1);
+  const Point2 seen = rotated(Point2(place.point_mm - axis), -turn);
+  const double pitch = kTwoPi / mover.gear().teeth,
+               tooth = pitch * std::round(polar_angle_rad(seen) / pitch);
+  Point2 there = rotated(seen, -tooth);
+  const bool below = there.y() < 0.0;
+  if (below) there = mirrored(there);
+  double least = 1e300;
+  for (const ProfilePiece& piece : mover.pieces())
+    for (int i = 0; i <= 3000; ++i) {
+      const Point2 on_half =
+          point_at(piece.curve, std::lerp(piece.curve.begin, piece.curve.end, i / 3000.0));
+      if ((on_half - there).norm() > 0.02 * m) continue;
+      const Point2 p = rotated(below ? mirrored(on_half) : on_half, tooth + turn);
+      for (int k = -20; k <= 20; ++k) {
+        const double on = 1e-3 * k / 20.0;
+        const Point2 placed = axis + rotated(p, on);
+        least = std::min(
+            least, mate.nearest(rotated(Point2(placed - axis_of_mate), -turn_of_mate - ratio * on))
+                       .distance_mm);
+      }
+    }
+  return least;
+}
+
+void expect_nothing_nearer(const GearTrain& train) {
+  const GearPair pair = train.pair(train.meshes[0]);
+  const MeshClearance found = mesh_clearance(pair);
+  const double least =
+      std::min(least_around_mm(pair, found.place, true), least_around_mm(pair, found.place, false));
+  EXPECT_GE(least, found.clearance_mm - 2e-8);
+  EXPECT_LE(least, found.clearance_mm + 2e-5);
+}
+
+TEST(MeshPlace, NoPlaceAroundItIsNearer) {
+  int meshes = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const auto train = lay_out(random_design(seed));
+    if (!train) continue;
+    SCOPED_TRACE(seed);
+    expect_nothing_nearer(*train);
+    ++meshes;
+  }
+  EXPECT_GT(meshes, 15);
+}
+
+// A rounding that comes near a fillet does so between the points of any grid.
+TEST(MeshPlace, NoPlaceAroundThatOfARoundedTipIsNearer) {
+  int rounded = 0;
+  for (int i = 0; i < 16; ++i) {
+    SCOPED_TRACE(i);
+    const bool ring = i % 2 == 1;
+    GearboxDesign design = pair_design(17 + 3 * i, (ring ? 40 : 33) + 5 * i, ring, 0.5);
+    for (GearDesign& g : design.gears) g.modifications.tip_rounding_mm = 0.12 + 0.01 * (i % 5);
+    design.rack.dedendum = 1.1 + 0.01 * i;
+    const GearTrain train = laid_out(design);
+    expect_nothing_nearer(train);
+    const MeshPlace place = mesh_clearance(train.pair(train.meshes[0])).place;
+    rounded +=
+        place.piece1 == PieceKind::kTipRounding || place.piece2 == PieceKind::kTipRounding ? 1 : 0;
+  }
+  EXPECT_GT(rounded, 4);
+}
+
 TEST(TipsClear, LooksAtTheTipsOfBothGears) {
   for (const bool ring : {false, true})
     for (const char* longer : {"pinion", "wheel"}) {

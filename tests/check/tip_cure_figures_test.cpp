@@ -111,6 +111,27 @@ TEST(ShortenedTips, ThatAreWrittenAndDigIntoAFilletEndWhereClearOnesDo) {
   EXPECT_FALSE(shorten_given(laid_out(design), complaint("fillet_interference"), none));
 }
 
+TEST(ShortenedTips, OfARingThatAreWrittenEndWhereClearOnesDoToo) {
+  GearboxDesign design = pair_design(20, 60, true, 0.05);
+  design.tips = TipCircles::kClear;
+  gear(design, "pinion").shift = gear(design, "wheel").shift = 0.0;
+  const GearTrain open = laid_out(design);
+  ASSERT_GT(open.gears[1].tip_shortened_mm, 0.0);
+  const double clear_mm = 2.0 * open.gears[1].profile.gear().tip_radius_mm;
+  const auto shortened = [&](double by_mm, const char* id) {
+    gear(design, "wheel").tip_diameter_mm = clear_mm - by_mm;
+    DesignChange change;
+    const Judgement judgement{
+        .complaints = {{.id = id, .layer = 1, .lacking = 0.1, .fails = true}}};
+    return shorten_given(laid_out(design), judgement, change) ? change.tip_diameter_mm.at(1) : 0.0;
+  };
+  EXPECT_NEAR(shortened(0.4, "fillet_interference"), clear_mm, 1.1e-3);
+  EXPECT_GE(shortened(0.4, "fillet_interference"), clear_mm);
+  EXPECT_EQ(shortened(-0.4, "fillet_interference"), 0.0);
+  EXPECT_NEAR(shortened(-0.4, "contact_ratio"), clear_mm, 1.1e-3);
+  EXPECT_EQ(shortened(0.4, "contact_ratio"), 0.0);
+}
+
 TEST(ShortenedTips, ThatAreWrittenStayWhereClearOnesAreNoShorterThanTheStandards) {
   GearboxDesign design = pair_design(30, 60, false, 0.05);
   design.tips = TipCircles::kClear;
@@ -126,8 +147,8 @@ TEST(ShortenedTips, ThatAreWrittenStayWhereClearOnesAreNoShorterThanTheStandards
 TEST(ContactJudge, LooksAtOneLayerAsAtThatLayerOfTheWhole) {
   GearboxDesign design = paper_design(0.0);
   const GearTrain plain = laid_out(design);
-  for (const char* name : {"sun", "planet2"})  // into the mate's root
-    gear(design, name).tip_diameter_mm = 2.0 * plain.find(name)->profile.tip_radius_mm() + 0.8;
+  for (const auto& [name, longer] : {std::pair("sun", 0.8), {"planet2", 0.8}, {"ring2", -0.7}})
+    gear(design, name).tip_diameter_mm = 2.0 * plain.find(name)->profile.tip_radius_mm() + longer;
   const GearTrain train = laid_out(design);
   ContactJudge judge;
   const auto told = [](const Judgement& judgement, int layer) {
@@ -137,13 +158,15 @@ TEST(ContactJudge, LooksAtOneLayerAsAtThatLayerOfTheWhole) {
     return complaints;
   };
   const Judgement whole = ContactJudge::without_turning(train), turned = judge.by_turning(train);
-  int layers_with_complaints = 0;
+  int layers_with_complaints = 0, layers_turned = 0;
   for (const int layer : {1, 2}) {
     EXPECT_EQ(told(ContactJudge::without_turning(train, layer), 0), told(whole, layer)) << layer;
     EXPECT_EQ(told(judge.by_turning(train, layer), 0), told(turned, layer)) << layer;
     layers_with_complaints += told(whole, layer).empty() ? 0 : 1;
+    layers_turned += told(turned, layer).empty() ? 0 : 1;
   }
   EXPECT_EQ(layers_with_complaints, 2);
+  EXPECT_EQ(layers_turned, 2);
 }
 
 TEST(ContactJudge, ClearancesAreThoseOfTheTurnedTeeth) {
