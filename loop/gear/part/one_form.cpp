@@ -15,6 +15,7 @@
 #include "trueflank/loop/gear/part/drifts.h"
 #include "trueflank/loop/gear/part/fields.h"
 #include "trueflank/loop/gear/part/forms_around.h"
+#include "trueflank/loop/gear/part/forms_of_runs.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/names_beside_forms.h"
 #include "trueflank/loop/gear/part/part_model.h"
@@ -528,12 +529,12 @@ void tell_as_one_form(PartModel& model) {
            put_one_form_for(model, set, waves, {slope_over(face, flank)});
   };
   const auto once = [&] {
-    if (tell_as_sector(model) || tell_as_drift(model) || tell_as_drift_aside(model) ||
-        tell_as_swellings_at_end(model) || tell_as_repeating(model) || tell_as_field(model) ||
-        tell_as_facing(model) || tell_as_product(model) || tell_as_corner(model) ||
-        tell_as_dish_of_all_flanks(model) || tell_as_alternating_wave(model) ||
-        tell_as_walking_waves(model) || tell_as_name_with_a_place(model, 0) ||
-        tell_as_name_with_a_place(model, 1))
+    if (tell_as_sector(model) || tell_of_the_other_teeth(model) || tell_as_drift(model) ||
+        tell_as_drift_aside(model) || tell_as_swellings_at_end(model) || tell_as_repeating(model) ||
+        tell_as_field(model) || tell_as_facing(model) || tell_as_product(model) ||
+        tell_as_corner(model) || tell_as_dish_of_all_flanks(model) ||
+        tell_as_alternating_wave(model) || tell_as_walking_waves(model) ||
+        tell_as_name_with_a_place(model, 0) || tell_as_name_with_a_place(model, 1))
       return true;
     for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
       std::array<std::vector<std::size_t>, 2> along;  // profile, face
