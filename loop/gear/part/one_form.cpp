@@ -28,6 +28,7 @@
 
 namespace trueflank::loop {
 namespace {
+constexpr int kValuesOfDish = 5;
 
 /// By how much effects are larger, each by itself, than they are together: squares.
 double undo_each_other(const FlankGeometry& geometry, const PointFit& fit,
@@ -271,7 +272,6 @@ bool tell_as_name_with_a_place(PartModel& model, int face) {
 /// A hollow of every flank, for all that is the same on every tooth: waves across the flanks of
 /// either side, and levels, were what it is made of.
 bool tell_as_dish_of_all_flanks(PartModel& model) {
-  constexpr int kValuesOfDish = 5;
   std::vector<std::size_t> all, uneven;
   std::vector<Effect> own;
   bool crossed = false, one_flank = false;
@@ -555,7 +555,6 @@ void tell_as_one_form(PartModel& model) {
       const bool crossed =
           std::ssize(all_over) > straight[0] + straight[1] || (straight[0] > 0 && straight[1] > 0);
       if (tell_as_wave_over_profile(model, along[0], flank)) return true;
-      constexpr int kValuesOfDish = 5;
       if (crossed && values(all_over) >= kValuesOfDish && put_dish_for(model, all_over, flank))
         return true;
       // (waves across the flank are crossed by themselves)
