@@ -2,6 +2,7 @@
 // Some teeth side by side: what waves around the gear, single teeth and levels are made of.
 #include "trueflank/loop/gear/part/sectors.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
