@@ -63,6 +63,42 @@ TEST(OddForms, ADriftThatGrowsMoreAndMoreIsOneForm) {
   EXPECT_EQ(list(result).find("per turn"), std::string::npos) << list(result);
 }
 
+/// Rises from 0 on the first tooth to 1 on the last, and levels off.
+double levelling(int since, int teeth, double within) {
+  return std::expm1(-since / within) / std::expm1(-(teeth - 1.0) / within);
+}
+
+TEST(OddForms, AWheelThatWearsAndLevelsOffHasTheSizeThatStandsOnTheTeeth) {
+  // (the level that it would come to is half as much again, and on no tooth)
+  const MadeGear gear = spur(41);
+  const auto wear = [&](auto&, const FlankSpot& s, auto&) {
+    return 20.0 * levelling((s.tooth + 8) % gear.teeth, gear.teeth, 32.0);
+  };
+  const auto result = close(gear, scan_of(gear, {grown(wear)}, scanned(8000, 2.5, 4)), true);
+  ASSERT_EQ(result.effects.size(), 1U) << list(result);
+  EXPECT_TRUE(tells(result, "from tooth 33 on, once around, the height drifts and levels off"))
+      << list(result);
+  EXPECT_TRUE(tells(result, "from nothing on its first tooth")) << list(result);
+  EXPECT_NEAR(parameter(result.effects[0], "amplitude_um").value, 20.0, 0.8) << list(result);
+}
+
+TEST(OddForms, TheLevelBesideADriftThatLevelsOffIsTheMeanOfTheTeeth) {
+  const MadeGear gear = spur(32);
+  const double within = 20.0;
+  double mean = 0.0;
+  for (int k = 0; k < gear.teeth; ++k) mean += levelling(k, gear.teeth, within) / gear.teeth;
+  const auto both = [&](auto&, const FlankSpot& s, auto&) {
+    return 12.0 - 9.0 * (levelling((s.tooth + 24) % gear.teeth, gear.teeth, within) - mean);
+  };
+  const auto result = close(gear, scan_of(gear, {grown(both)}, scanned(8000, 1.2, 7)), true);
+  ASSERT_EQ(result.effects.size(), 2U) << list(result);
+  EXPECT_TRUE(tells(result, "from tooth 8 on, once around, the height drifts and levels off"))
+      << list(result);
+  EXPECT_FALSE(tells(result, "nothing on its")) << list(result);
+  EXPECT_NEAR(parameter(result.effects[1], "amplitude_um").value, 9.0, 0.5) << list(result);
+  expect_size(result, "contour_offset", "offset_um", 12.0, 0.2);
+}
+
 TEST(OddForms, AToolThatIsDressedAgainAndAgainIsADriftAndNoPitchWave) {
   // The last drift is cut short where the gear ends.
   const MadeGear gear = spur(38);

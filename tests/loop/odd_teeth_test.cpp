@@ -172,6 +172,39 @@ TEST(SectorWithSoftEdges, IsOneForm) {
   }
 }
 
+TEST(SectorWithSoftEdges, OfOneFlankIsOneFormAndNoEccentricity) {
+  const MadeGear gear = spur(48);
+  const auto worn = [](auto&, const FlankSpot& s, auto&) {
+    return s.side > 0 ? -15.0 * soft_run(48, s.tooth, 19.5, 7.7, 0.67) : 0.0;
+  };
+  for (const double off_um : {0.0, 8.0}) {
+    std::vector<Process> processes{grown(worn)};
+    if (off_um > 0.0) processes.push_back(off_centre(off_um, 70.0));
+    const auto result = close(gear, scan_of(gear, processes, scanned(6000, 2.5, 25)), true);
+    EXPECT_EQ(result.effects.size(), off_um > 0.0 ? 2U : 1U) << list(result);
+    EXPECT_TRUE(tells_of(result, "a sector of about 15 teeth around tooth 19.")) << list(result);
+    EXPECT_EQ(result.effects[0].flank, "left") << list(result);
+    EXPECT_NEAR(parameter(result.effects[0], "amplitude_um").value, 15.0, 0.6) << list(result);
+    if (off_um > 0.0) {
+      expect_size(result, "eccentricity", "amplitude_um", off_um, 0.3);
+      expect_size(result, "eccentricity", "phase_deg", 70.0, 3.0);
+    }
+  }
+}
+
+TEST(LeanOfMostTeeth, OfOneFlankIsNoLeanOfTheOthers) {
+  // Of 28 teeth 16; more than a sector was sought on.
+  const MadeGear gear = spur(28);
+  const auto leaning = [](auto&, const FlankSpot& s, auto&) {
+    return s.side > 0 && s.tooth >= 13 ? -18.0 * s.u : 0.0;
+  };
+  const auto result = close(gear, scan_of(gear, {grown(leaning)}, scanned(8000, 2.8, 26)), true);
+  EXPECT_EQ(result.effects.size(), 1U) << list(result);
+  EXPECT_TRUE(tells_of(result, "16 teeth from tooth 13 on")) << list(result);
+  EXPECT_EQ(result.effects[0].flank, "left") << list(result);
+  EXPECT_NEAR(parameter(result.effects[0], "amplitude_um").value, 18.0, 0.8) << list(result);
+}
+
 TEST(WavesOfFewTraces, NameTheirTeeth) {
   const MadeGear gear = spur(30);
   const auto shaken = [](auto&, const FlankSpot& s, auto&) {

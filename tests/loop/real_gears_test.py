@@ -165,6 +165,17 @@ def legendre(degree, x):
     return numpy.polynomial.legendre.Legendre.basis(degree)(x)
 
 
+def uneven_drift(term, since, teeth):
+    """A drift that levels off or grows, so many teeth after its first; 1 in all, from its zero on."""
+    def rise(after):
+        away = teeth - 1 - after if term["course"] == "grows" else after
+        return (1 if term["course"] == "grows" else -1) * math.exp(-away / term["within_teeth"])
+
+    steps = [rise(k) for k in range(teeth)]
+    zero = {"mean": sum(steps) / teeth, "first_tooth": steps[0], "last_tooth": steps[-1]}
+    return (rise(since) - zero[term["zero_at"]]) / (steps[-1] - steps[0])
+
+
 def form_over_the_face(term, z, face_mm):
     """A step, a kink, a groove or ridge, or waves over the face [um] at the heights z [mm]."""
     if "wavelength_mm" in term:
@@ -258,8 +269,7 @@ def predicted_helix(gear, result, tooth, side, z):
                     since = (tooth - term["first_tooth"]) % gear.teeth
                     rise = since / gear.teeth - 0.5
                     if "within_teeth" in term:
-                        rise = (-math.exp(-since / term["within_teeth"]) if term["course"] == "levels_off" else
-                                math.exp(-(gear.teeth - 1 - since) / term["within_teeth"]))
+                        rise = uneven_drift(term, since, gear.teeth)
                     total += rise * term["cos_um"] * v ** term["face_degree"] * (
                         side if term["flanks"] == "opposite" else 1)
                     continue

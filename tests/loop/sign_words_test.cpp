@@ -218,7 +218,7 @@ std::vector<Told> forms(const loop::FlankGeometry& g) {
        0,
        0},
       {"unnamed_levelling",
-       {1, 0, 0, 1, 1, 3},
+       {1, 0, 0, 1, 1, 3, 0},
        "the place of the teeth drifts more and more, counter-clockwise",
        "drifts more and more, clockwise",
        24,

@@ -81,6 +81,16 @@ template <class Function>
 [[nodiscard]] std::vector<EffectShape> sectors_beside(const FlankGeometry& geometry,
                                                       const EffectShape& shape, int most);
 
+/// @name Where an uneven drift around the gear is nothing (shape value): at its mean over the
+/// teeth, on its first tooth or on its last
+/// @{
+inline constexpr double kMeanOfDrift = 0.0, kFirstOfDrift = 1.0, kLastOfDrift = 2.0;
+/// The end at which it changes least: the last tooth of one that levels off.
+[[nodiscard]] constexpr double flat_end_of_drift(double grows) {
+  return grows != 0.0 ? kFirstOfDrift : kLastOfDrift;
+}
+/// @}
+
 /// 1 on a run of teeth about a middle, 0 far from it: it begins and ends over some teeth.
 [[nodiscard]] double in_soft_run(const FlankGeometry& geometry, int tooth, double middle,
                                  double teeth, double edge_teeth);

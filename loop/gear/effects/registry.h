@@ -56,6 +56,10 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] std::vector<EffectFamily> forms_of_teeth();
 /// The family of a form on some teeth; nullptr where there is none.
 [[nodiscard]] const EffectFamily* of_teeth(const Effect& form);
+/// The same form on the other teeth, for one that a run of neighbouring teeth has; none of other
+/// forms, and where one tooth or none would be left.
+[[nodiscard]] std::optional<Effect> on_the_other_teeth(const FlankGeometry& geometry,
+                                                       const Effect& form);
 /// True of such a form.
 [[nodiscard]] bool is_of_teeth(const Effect& form);
 [[nodiscard]] EffectFamily unnamed_step();

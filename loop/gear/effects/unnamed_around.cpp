@@ -163,18 +163,39 @@ EffectFamily unnamed_ramp() {
   return f;
 }
 
+namespace {
+
+/// An uneven drift, from tooth to tooth once around: it rises by 1 in all from its first tooth to
+/// its last. (A level that it would come to after the last tooth stands on none.)
+double uneven_drift(const FlankGeometry& g, int tooth, const EffectShape& shape) {
+  const double z = g.teeth(), grows = shape[4], within = shape[5];
+  // 1 at the steep end and dying away from it to `flat`; the mean is a geometric sum.
+  struct Course {
+    double teeth = 0.0, within = 0.0, flat = 0.0, mean = 0.0;
+  };
+  thread_local Course course;  // (asked for all places of one drift after the other)
+  if (course.teeth != z || course.within != within)
+    course = {z, within, std::exp(-(z - 1.0) / within),
+              std::expm1(-z / within) / (z * std::expm1(-1.0 / within))};
+  const double since = teeth_since(g, tooth, shape[0]);
+  const double here = std::exp(-(grows != 0.0 ? z - 1.0 - since : since) / within);
+  const double nothing = shape[6] == kMeanOfDrift               ? course.mean
+                         : shape[6] == flat_end_of_drift(grows) ? course.flat
+                                                                : 1.0;
+  return (grows != 0.0 ? 1.0 : -1.0) * (here - nothing) / (1.0 - course.flat);
+}
+
+}  // namespace
+
 EffectFamily unnamed_levelling() {
-  EffectFamily f = described("unnamed_levelling", {"first_tooth", "profile_degree", "face_degree",
-                                                   "opposite_flanks", "grows", "within_teeth"});
+  EffectFamily f =
+      described("unnamed_levelling", {"first_tooth", "profile_degree", "face_degree",
+                                      "opposite_flanks", "grows", "within_teeth", "zero_at"});
   f.is_drift = true;
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
-    c[0] = 0.0;
-    if (p.surface != Surface::kFlank) return;
-    double since = teeth_since(g, p.tooth, shape[0]);
-    if (shape[4] != 0.0) since = g.teeth() - 1.0 - since;
-    // What levels off rises to nothing, what grows rises from it.
-    const double sign = shape[4] != 0.0 ? 1.0 : -1.0;
-    c[0] = sign * std::exp(-since / shape[5]) * form_of_tooth(g, p, shape, 1);
+    c[0] = p.surface == Surface::kFlank
+               ? uneven_drift(g, p.tooth, shape) * form_of_tooth(g, p, shape, 1)
+               : 0.0;
   };
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     std::vector<EffectShape> shapes = begun_beside(g, shape);
@@ -190,7 +211,8 @@ EffectFamily unnamed_levelling() {
                  {"face_degree"},
                  kFlanks,
                  {"course", TermKey::Kind::kWord, {"levels_off", "grows"}},
-                 number("within_teeth")};
+                 number("within_teeth"),
+                 {"zero_at", TermKey::Kind::kWord, {"mean", "first_tooth", "last_tooth"}}};
   f.words = [](const ToldForm& told) {
     const CourseOfTeeth course = CourseOfTeeth::at(told, 1);
     const double teeth = std::min(std::ceil(told.shape[5]), double(told.geometry.teeth()));
@@ -200,6 +222,9 @@ EffectFamily unnamed_levelling() {
            printed(told.shape[4] != 0.0 ? ", most of it in the last %.0f teeth"
                                         : ", most of it in the first %.0f teeth",
                    teeth) +
+           (told.shape[6] == kMeanOfDrift    ? ""
+            : told.shape[6] == kFirstOfDrift ? ", from nothing on its first tooth"
+                                             : ", to nothing on its last tooth") +
            ", and begins anew, as from a machine that warms up or a tool that wears";
   };
   return f;

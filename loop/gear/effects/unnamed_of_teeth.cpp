@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Forms along the flanks that some neighbouring teeth have, or one alone.
+#include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -7,6 +9,7 @@
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/effects/simple_courses.h"
 
 namespace trueflank::loop::gear_effects {
 namespace {
@@ -99,6 +102,31 @@ bool is_of_teeth(const Effect& form) {
 
 const EffectFamily* of_teeth(const Effect& form) {
   return find_family(form.family->id + "_of_teeth");
+}
+
+std::optional<Effect> on_the_other_teeth(const FlankGeometry& geometry, const Effect& form) {
+  constexpr std::size_t kAround = 9;  // of unnamed_crossed_around
+  const double z = geometry.teeth();
+  const auto on_a_tooth = [z](double tooth) { return std::fmod(tooth - 1.0 + z, z) + 1.0; };
+  Effect other = form;
+  EffectShape& shape = other.shape;
+  if (form.family == find_family("unnamed_sector") || is_of_teeth(form)) {
+    shape[0] = on_a_tooth(form.shape[0] + form.shape[1]);
+    shape[1] = z - form.shape[1];
+  } else if (form.family == find_family("unnamed_soft_sector")) {
+    shape[0] = on_a_tooth(form.shape[0] + 0.5 * z);
+    shape[1] = z - form.shape[1];
+  } else if (form.family == find_family("unnamed_crossed_around") &&
+             AroundCourse::at(form.shape, kAround).kind == AroundCourse::kSector) {
+    shape[kAround + 1] = std::remainder(form.shape[kAround + 1] + 180.0, 360.0);
+    shape[kAround + 2] = 180.0 - form.shape[kAround + 2];
+    if (shape[kAround + 2] * z < 2.0 * 180.0) return {};
+    return other;
+  } else {
+    return {};
+  }
+  if (!(shape[1] >= 2.0)) return {};
+  return other;
 }
 
 }  // namespace trueflank::loop::gear_effects

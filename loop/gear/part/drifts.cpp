@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/part_model.h"
@@ -118,10 +119,11 @@ std::vector<std::pair<Pace, int>> likeliest_uneven(const Eigen::VectorXd& values
 }
 
 /// The drifts that follow best what these effects say together of every tooth; of one flank, or of
-/// both.
+/// both. Even ones, or uneven ones that are nothing at one of these.
 std::vector<std::vector<Effect>> drifts_in_place_of(PartModel& model,
                                                     const std::vector<std::size_t>& these,
-                                                    double profile, double face, bool evenly) {
+                                                    double profile, double face,
+                                                    const std::vector<double>& zeros) {
   constexpr double kNearTheEnd = 0.9;
   const auto fit = fit_of(model, model.effects);
   const double low = model.geometry.root_form_roll_mm(), high = model.geometry.tip_form_roll_mm();
@@ -146,22 +148,58 @@ std::vector<std::vector<Effect>> drifts_in_place_of(PartModel& model,
   }
   const auto drifts = [&](FlankChoice flank, double opposite, const Eigen::VectorXd& values) {
     std::vector<Effect> forms;
-    if (evenly)
+    if (zeros.empty())
       for (const auto& [square, first] : likeliest_beginnings(values, {}))
         forms.push_back(
             {find_family("unnamed_ramp"), flank, {double(first), profile, face, opposite}});
     else
       for (const auto& [pace, first] : likeliest_uneven(values))
-        forms.push_back(
-            {find_family("unnamed_levelling"),
-             flank,
-             {double(first), profile, face, opposite, pace.grows ? 1.0 : 0.0, pace.within_teeth}});
+        for (const double zero : zeros)
+          forms.push_back({find_family("unnamed_levelling"),
+                           flank,
+                           {double(first), profile, face, opposite, pace.grows ? 1.0 : 0.0,
+                            pace.within_teeth, zero}});
     return forms;
   };
   const FlankChoice right = flank_choice(model.geometry, 0), left = flank_choice(model.geometry, 1);
   return {drifts(FlankChoice::kBoth, 0.0, of_side[1] + of_side[0]),
           drifts(FlankChoice::kBoth, 1.0, of_side[1] - of_side[0]), drifts(left, 0.0, of_side[1]),
           drifts(right, 0.0, of_side[0])};
+}
+
+/// An uneven drift beside a level of its course: one that begins or ends with nothing where that
+/// says both, else about its mean, so that the level is the mean of all teeth. True where that
+/// changed it.
+bool tell_mean_and_drift(PartModel& model, const CourseOverFlanks& course,
+                         const std::vector<std::size_t>& levels) {
+  constexpr double kNothing = 9.0;  // chi-square
+  constexpr std::size_t kZero = 6;
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    if (model.effects[e].family != find_family("unnamed_levelling") ||
+        !has_course(model.effects[e], 1, course))
+      continue;
+    for (const std::size_t level : levels) {
+      if (level < first_told_here(model)) continue;
+      std::vector<Effect> others, forms;
+      for (std::size_t k = 0; k < model.effects.size(); ++k)
+        if (k != e && k != level) others.push_back(model.effects[k]);
+      for (const double zero : {gear_effects::kFirstOfDrift, gear_effects::kLastOfDrift}) {
+        forms.push_back(model.effects[e]);
+        forms.back().shape[kZero] = zero;
+      }
+      const std::vector<Effect> with = with_best_form(model, others, forms, {});
+      if (with.empty() || fit_of(model, with)->residual_square() >
+                              fit_of(model, model.effects)->residual_square() + kNothing)
+        continue;
+      put_in_place_of(model, {std::min(e, level), std::max(e, level)}, with);
+      return true;
+    }
+    if (levels.empty() || model.effects[e].shape[kZero] == gear_effects::kMeanOfDrift) continue;
+    model.effects[e].shape[kZero] = gear_effects::kMeanOfDrift;
+    if (e < model.options.given.size()) model.options.given[e] = model.effects[e];
+    return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -222,7 +260,7 @@ bool tell_as_drift(PartModel& model) {
   for (const CourseOverFlanks& course :
        {CourseOverFlanks{}, CourseOverFlanks{1.0, 0.0}, CourseOverFlanks{0.0, 1.0},
         CourseOverFlanks{2.0, 0.0}, CourseOverFlanks{0.0, 2.0}}) {
-    std::vector<std::size_t> waves, teeth, levels;
+    std::vector<std::size_t> waves, teeth, levels, moved;
     std::set<double> orders;
     bool drifts = false;
     for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
@@ -238,25 +276,35 @@ bool tell_as_drift(PartModel& model) {
         teeth.push_back(e);
       } else if (is_level_of(model.geometry, model.effects[e], course)) {
         levels.push_back(e);
+      } else if (moves_the_teeth(model.effects[e])) {
+        moved.push_back(e);
       }
     }
     const bool several = orders.size() > 1;
-    if (!several && !(drifts && !levels.empty())) continue;
-    for (const bool evenly : {true, false}) {
-      if (evenly && !several) continue;
+    if (!several && !drifts) continue;
+    if (tell_mean_and_drift(model, course, levels)) return true;
+    // An even drift; one about its mean; one that begins or ends with nothing, which has the mean
+    // in it. (That last: values on a zero of their own do not tell these apart, and beside a mean
+    // it is told of the pair.)
+    const std::vector<double> none, mean{gear_effects::kMeanOfDrift},
+        ends{gear_effects::kFirstOfDrift, gear_effects::kLastOfDrift};
+    for (const std::vector<double>& zeros : {none, mean, ends}) {
+      const bool has_mean = zeros.size() > 1, is_bent = !several && zeros.size() == 1;
+      if (!several && zeros.empty()) continue;
       const std::vector<std::vector<Effect>> forms =
-          drifts_in_place_of(model, waves, course.profile, course.face, evenly);
-      for (const bool with_teeth : {true, false})
-        for (const bool with_levels : {true, false}) {
-          if ((with_teeth && teeth.empty()) || (with_levels && (evenly || levels.empty())))
-            continue;
-          std::vector<std::size_t> these = waves;
-          if (with_teeth) these.insert(these.end(), teeth.begin(), teeth.end());
-          if (with_levels) these.insert(these.end(), levels.begin(), levels.end());
-          std::sort(these.begin(), these.end());
-          for (const std::vector<Effect>& drifts_of : forms)
-            if (!drifts_of.empty() && put_one_form_for(model, these, drifts_of)) return true;
-        }
+          drifts_in_place_of(model, waves, course.profile, course.face, zeros);
+      // (an eccentricity beside an even drift may be what that leaves of an uneven one)
+      std::vector<std::size_t> nothing;
+      for (const auto* more : {&moved, &teeth, &nothing}) {
+        if ((more->empty() && more != &nothing) || (more == &moved && !is_bent)) continue;
+        std::vector<std::size_t> these = waves;
+        these.insert(these.end(), more->begin(), more->end());
+        if (has_mean) these.insert(these.end(), levels.begin(), levels.end());
+        std::sort(these.begin(), these.end());
+        for (const std::vector<Effect>& drifts_of : forms)
+          if (!drifts_of.empty() && put_one_form_for(model, these, drifts_of, {}, is_bent ? 1 : 0))
+            return true;
+      }
     }
   }
   return false;

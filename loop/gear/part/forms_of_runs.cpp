@@ -68,6 +68,48 @@ std::vector<Effect> dents_about(const FlankGeometry& geometry, const FormOnTeeth
   return dents;
 }
 
+/// Of how many teeth a form of a run is.
+double teeth_of(const FlankGeometry& geometry, const Effect& run) {
+  return run.family == find_family("unnamed_crossed_around")
+             ? run.shape.back() / 180.0 * geometry.teeth()  // half a width [deg]
+             : run.shape[1];
+}
+
+/// How a form runs along a flank, of a run of teeth or of the others; over an even grid.
+Eigen::VectorXd course_of_run(const FlankGeometry& geometry, const Effect& run,
+                              const Effect& other) {
+  const Eigen::VectorXd tooth =
+      (over_a_tooth(geometry, run) + over_a_tooth(geometry, other)).col(0);
+  const Eigen::Index flank = tooth.size() / 2;
+  return tooth.head(flank).norm() > 0.0 ? tooth.head(flank) : tooth.tail(flank);
+}
+
+/// True of one column that runs in this way along the flanks of all teeth, on one side or on both.
+bool has_course_on_all(const FlankGeometry& geometry, const Effect& effect,
+                       const Eigen::VectorXd& course) {
+  constexpr double kAlike = 0.99;
+  if (effect.columns() != 1 || effect.order() != 0.0 || effect.family->local ||
+      runs_of(geometry, effect, Flanks::kOfEither) == Runs::kOtherwise)
+    return false;
+  const Eigen::VectorXd own = over_a_tooth(geometry, effect).col(0);
+  const Eigen::Index flank = own.size() / 2;
+  for (const Eigen::Index first : {Eigen::Index{0}, flank}) {
+    const Eigen::VectorXd here = own.segment(first, flank);
+    if (std::abs(here.dot(course)) < kAlike * here.norm() * course.norm()) return false;
+  }
+  return true;
+}
+
+/// All of these, then two of them, then one.
+std::vector<std::vector<std::size_t>> most_first(const std::vector<std::size_t>& all) {
+  std::vector<std::vector<std::size_t>> sets;
+  if (all.size() > 2) sets.push_back(all);
+  for (std::size_t a = 0; a < all.size(); ++a)
+    for (std::size_t b = a + 1; b < all.size(); ++b) sets.push_back({all[a], all[b]});
+  for (const std::size_t one : all) sets.push_back({one});
+  return sets;
+}
+
 }  // namespace
 
 std::vector<double> left_with(const PartModel& model, const std::vector<std::size_t>& these) {
@@ -143,6 +185,41 @@ std::vector<Effect> with_form_on_teeth(const PartModel& model, std::vector<std::
       with_best_form(model, rest, dents_about(model.geometry, *run), {});
   if (!dent.empty() && cost_of(model, dent) < least) return {};
   return best;
+}
+
+bool tell_of_the_other_teeth(PartModel& model) {
+  constexpr double kNothing = 9.0, kNearly = 0.003;  // chi-square of a value; of what they take out
+  constexpr double kFewest = 0.2;                    // of the teeth: fewer are the odd ones
+  constexpr double kMoved = 2.0;                     // teeth
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    const Effect& run = model.effects[e];
+    const std::optional<Effect> other = gear_effects::on_the_other_teeth(model.geometry, run);
+    if (!other || teeth_of(model.geometry, run) < kFewest * model.geometry.teeth()) continue;
+    const Eigen::VectorXd course = course_of_run(model.geometry, run, *other);
+    std::vector<std::size_t> of_all;
+    for (std::size_t k = first_told_here(model); k < model.effects.size(); ++k)
+      if (has_course_on_all(model.geometry, model.effects[k], course)) of_all.push_back(k);
+    const double now = fit_of(model, model.effects)->residual_square();
+    for (const std::vector<std::size_t>& some : most_first(of_all)) {
+      std::vector<std::size_t> these = some;
+      these.push_back(e);
+      std::sort(these.begin(), these.end());
+      std::vector<Effect> others;
+      for (std::size_t k = 0; k < model.effects.size(); ++k)
+        if (!std::binary_search(these.begin(), these.end(), k)) others.push_back(model.effects[k]);
+      const std::vector<Effect> with = with_best_form(model, others, {*other}, {});
+      // (one that moved away follows something else)
+      if (with.empty() || std::abs(teeth_of(model.geometry, with.back()) -
+                                   teeth_of(model.geometry, *other)) > kMoved)
+        continue;
+      const double loss = fit_of(model, with)->residual_square() - now,
+                   none = fit_of(model, others)->residual_square() - now;
+      if (loss > std::max(kNothing * static_cast<double>(some.size()), kNearly * none)) continue;
+      put_in_place_of(model, these, with);
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace trueflank::loop

@@ -14,4 +14,8 @@ namespace trueflank::loop {
                                                      std::vector<std::size_t>& these,
                                                      double& p_value);
 
+/// True where a form of a run of teeth was nearly undone by one that all teeth have: the other
+/// teeth have it, and these have nothing.
+[[nodiscard]] bool tell_of_the_other_teeth(PartModel& model);
+
 }  // namespace trueflank::loop

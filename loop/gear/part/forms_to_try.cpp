@@ -288,13 +288,18 @@ void add_beginning(int z, const CourseOverFlanks& course, FlankChoice flank, dou
     for (int first = 1; first <= z; first += step_of(count))
       sectors.push_back(
           {find_family("unnamed_sector"), flank, {double(first), double(count), u, v, opposite}});
+  // (all teeth of an index stand on a zero of its own)
+  const auto zero = [&](double grows) {
+    return u == 0.0 && v == 0.0 ? gear_effects::kMeanOfDrift
+                                : gear_effects::flat_end_of_drift(grows);
+  };
   for (int first = 1; first <= z; ++first) {
     ramps.push_back({find_family("unnamed_ramp"), flank, {double(first), u, v, opposite}});
     for (const double share : {0.06, 0.12, 0.25, 0.5})
       for (const double grows : {0.0, 1.0})
         levellings.push_back({find_family("unnamed_levelling"),
                               flank,
-                              {double(first), u, v, opposite, grows, share * z}});
+                              {double(first), u, v, opposite, grows, share * z, zero(grows)}});
     if (flank == FlankChoice::kBoth && u == 0.0 && v == 0.0)
       for (const double periods : {0.5, 0.75, 1.25, 1.5, 1.75, 2.25, 2.5, 2.75, 3.5})
         broken_waves.push_back(

@@ -15,6 +15,7 @@
 #include "trueflank/loop/gear/part/drifts.h"
 #include "trueflank/loop/gear/part/fields.h"
 #include "trueflank/loop/gear/part/forms_around.h"
+#include "trueflank/loop/gear/part/forms_of_runs.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/names_beside_forms.h"
 #include "trueflank/loop/gear/part/part_model.h"
@@ -27,6 +28,7 @@
 
 namespace trueflank::loop {
 namespace {
+constexpr int kValuesOfDish = 5;
 
 /// By how much effects are larger, each by itself, than they are together: squares.
 double undo_each_other(const FlankGeometry& geometry, const PointFit& fit,
@@ -270,7 +272,6 @@ bool tell_as_name_with_a_place(PartModel& model, int face) {
 /// A hollow of every flank, for all that is the same on every tooth: waves across the flanks of
 /// either side, and levels, were what it is made of.
 bool tell_as_dish_of_all_flanks(PartModel& model) {
-  constexpr int kValuesOfDish = 5;
   std::vector<std::size_t> all, uneven;
   std::vector<Effect> own;
   bool crossed = false, one_flank = false;
@@ -528,12 +529,12 @@ void tell_as_one_form(PartModel& model) {
            put_one_form_for(model, set, waves, {slope_over(face, flank)});
   };
   const auto once = [&] {
-    if (tell_as_sector(model) || tell_as_drift(model) || tell_as_drift_aside(model) ||
-        tell_as_swellings_at_end(model) || tell_as_repeating(model) || tell_as_field(model) ||
-        tell_as_facing(model) || tell_as_product(model) || tell_as_corner(model) ||
-        tell_as_dish_of_all_flanks(model) || tell_as_alternating_wave(model) ||
-        tell_as_walking_waves(model) || tell_as_name_with_a_place(model, 0) ||
-        tell_as_name_with_a_place(model, 1))
+    if (tell_as_sector(model) || tell_of_the_other_teeth(model) || tell_as_drift(model) ||
+        tell_as_drift_aside(model) || tell_as_swellings_at_end(model) || tell_as_repeating(model) ||
+        tell_as_field(model) || tell_as_facing(model) || tell_as_product(model) ||
+        tell_as_corner(model) || tell_as_dish_of_all_flanks(model) ||
+        tell_as_alternating_wave(model) || tell_as_walking_waves(model) ||
+        tell_as_name_with_a_place(model, 0) || tell_as_name_with_a_place(model, 1))
       return true;
     for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
       std::array<std::vector<std::size_t>, 2> along;  // profile, face
@@ -554,7 +555,6 @@ void tell_as_one_form(PartModel& model) {
       const bool crossed =
           std::ssize(all_over) > straight[0] + straight[1] || (straight[0] > 0 && straight[1] > 0);
       if (tell_as_wave_over_profile(model, along[0], flank)) return true;
-      constexpr int kValuesOfDish = 5;
       if (crossed && values(all_over) >= kValuesOfDish && put_dish_for(model, all_over, flank))
         return true;
       // (waves across the flank are crossed by themselves)

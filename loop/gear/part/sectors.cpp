@@ -2,11 +2,13 @@
 // Some teeth side by side: what waves around the gear, single teeth and levels are made of.
 #include "trueflank/loop/gear/part/sectors.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/part_model.h"
@@ -24,6 +26,12 @@ bool is_wave_of_teeth(const Effect& e) {
   return e.order() > 0.0 && !e.family->tells_order_along_profile && !needs.along_profile &&
          !needs.along_face;
 }
+
+/// On which flanks teeth stand out: both alike, both to opposite sides, or one.
+struct StandingOut {
+  FlankChoice flank = FlankChoice::kBoth;
+  bool opposite = false;
+};
 
 /// How far each tooth stands out by what some effects say and by what is left beside all.
 struct HeightOfTeeth {
@@ -59,18 +67,21 @@ std::pair<int, int> standing_out(const HeightOfTeeth& heights) {
 }
 
 /// Drifts of heights, or of teeth that stand aside, from every tooth on: even ones, and those that
-/// level off or grow.
+/// level off or grow, about their mean or from or to nothing.
 std::vector<std::vector<Effect>> drifts_from_every_tooth(const FlankGeometry& geometry,
-                                                         double opposite) {
+                                                         FlankChoice flank, double opposite) {
+  constexpr double kNearlyEven = 1.5;  // of the teeth
   std::vector<std::vector<Effect>> drifts(2);
   for (int first = 1; first <= geometry.teeth(); ++first) {
-    drifts[0].push_back(
-        {find_family("unnamed_ramp"), FlankChoice::kBoth, {double(first), 0.0, 0.0, opposite}});
-    for (const double grows : {0.0, 1.0})
-      for (const double share : {0.1, 0.25, 0.5})
-        drifts[1].push_back({find_family("unnamed_levelling"),
-                             FlankChoice::kBoth,
-                             {double(first), 0.0, 0.0, opposite, grows, share * geometry.teeth()}});
+    drifts[0].push_back({find_family("unnamed_ramp"), flank, {double(first), 0.0, 0.0, opposite}});
+    for (const double zero : {gear_effects::kFirstOfDrift, gear_effects::kLastOfDrift})
+      for (const double share : {0.1, 0.25, 0.5, kNearlyEven})
+        for (const double grows : {0.0, 1.0})
+          if (grows == 0.0 || share < kNearlyEven)
+            drifts[1].push_back(
+                {find_family("unnamed_levelling"),
+                 flank,
+                 {double(first), 0.0, 0.0, opposite, grows, share * geometry.teeth(), zero}});
   }
   return drifts;
 }
@@ -84,10 +95,9 @@ bool is_far_from_edges(const FlankGeometry& geometry, const Effect& effect, cons
   return std::abs(off - 0.5 * sector.shape[1]) > std::max(kNear, sector.shape[1] / kNear);
 }
 
-/// The sector that follows best what these effects say together, and swellings about its middle;
-/// none where no teeth stand out.
-std::vector<Effect> sectors_in_place_of(PartModel& model, const std::vector<std::size_t>& these,
-                                        bool opposite) {
+/// How far each patch of a flank stands out by what these effects say and by what is left beside
+/// all; NaN for other patches.
+std::vector<double> heights_of_patches(PartModel& model, const std::vector<std::size_t>& these) {
   const auto fit = fit_of(model, model.effects);
   std::vector<Effect> own;
   for (const std::size_t e : these) own.push_back(model.effects[e]);
@@ -105,29 +115,112 @@ std::vector<Effect> sectors_in_place_of(PartModel& model, const std::vector<std:
       left[static_cast<std::size_t>(patch)] += (*row_um)[row];
       count[static_cast<std::size_t>(patch)] += 1.0;
     }
+  for (std::size_t p = 0; p < left.size(); ++p) {
+    const ObservationKind kind = model.patches.patches[p].kind;
+    const bool flank = kind == ObservationKind::kScanFlank || kind == ObservationKind::kIndex;
+    left[p] =
+        flank && count[p] > 0.0 ? height[static_cast<Eigen::Index>(p)] + left[p] / count[p] : kNaN;
+  }
+  return left;
+}
+
+HeightOfTeeth heights_of_teeth(const PartModel& model, const std::vector<double>& of_patches,
+                               const StandingOut& out) {
   const auto z = static_cast<std::size_t>(model.geometry.teeth());
   HeightOfTeeth heights{std::vector<double>(z, 0.0), std::vector<double>(z, 0.0)};
-  for (std::size_t p = 0; p < model.patches.patches.size(); ++p) {
+  for (std::size_t p = 0; p < of_patches.size(); ++p) {
     const Patches::Patch& patch = model.patches.patches[p];
-    const bool flank =
-        patch.kind == ObservationKind::kScanFlank || patch.kind == ObservationKind::kIndex;
-    if (!flank || count[p] == 0.0) continue;
     const Place& place = patch.places.front().place;
+    const bool here = out.flank == FlankChoice::kBoth ||
+                      out.flank == flank_choice(model.geometry, place.side > 0 ? 1 : 0);
+    if (!here || std::isnan(of_patches[p])) continue;
     const auto tooth = static_cast<std::size_t>(place.tooth - 1);
-    const double um = height[static_cast<Eigen::Index>(p)] + left[p] / count[p];
-    heights.sum[tooth] += patch.weight * um * (opposite ? place.side : 1);
+    heights.sum[tooth] += patch.weight * of_patches[p] * (out.opposite ? place.side : 1);
     heights.weight[tooth] += patch.weight;
   }
+  return heights;
+}
+
+/// The flank that has nearly all of what differs from tooth to tooth; both where each has some.
+FlankChoice flank_that_differs(const PartModel& model, const std::vector<double>& of_patches) {
+  constexpr double kLittle = 0.25;  // of the squares
+  const auto squares = [&](FlankChoice flank) {
+    const HeightOfTeeth heights = heights_of_teeth(model, of_patches, {.flank = flank});
+    double sum = 0.0, square = 0.0, weight = 0.0;
+    for (std::size_t k = 0; k < heights.sum.size(); ++k) {
+      if (!(heights.weight[k] > 0.0)) continue;
+      sum += heights.sum[k];
+      square += heights.sum[k] * heights.sum[k] / heights.weight[k];
+      weight += heights.weight[k];
+    }
+    return weight > 0.0 ? square - sum * sum / weight : kNaN;
+  };
+  const double left = squares(FlankChoice::kLeft), right = squares(FlankChoice::kRight);
+  return right < kLittle * left   ? FlankChoice::kLeft
+         : left < kLittle * right ? FlankChoice::kRight
+                                  : FlankChoice::kBoth;
+}
+
+/// These heights without the eccentricity that the patches of one side show.
+std::vector<double> without_eccentricity(const PartModel& model, std::vector<double> heights,
+                                         const Effect& eccentricity, int side) {
+  const auto columns_at = [&](std::size_t p) {
+    Eigen::Vector3d columns(1.0, 0.0, 0.0);
+    eccentricity.evaluate(model.geometry, model.patches.patches[p].places.front().place,
+                          columns.data() + 1);
+    return columns;
+  };
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (std::size_t p = 0; p < heights.size(); ++p) {
+    const Patches::Patch& patch = model.patches.patches[p];
+    if (std::isnan(heights[p]) || patch.places.front().place.side != side) continue;
+    const Eigen::Vector3d columns = columns_at(p);
+    normal += patch.weight * columns * columns.transpose();
+    right += patch.weight * heights[p] * columns;
+  }
+  const Eigen::Vector3d shown = normal.ldlt().solve(right);
+  if (!shown.allFinite()) return heights;
+  for (std::size_t p = 0; p < heights.size(); ++p)
+    if (!std::isnan(heights[p])) heights[p] -= columns_at(p).tail<2>().dot(shown.tail<2>());
+  return heights;
+}
+
+/// The heights that some effects have, and the flank that differs. An eccentricity may have taken
+/// up a part of what one flank has, and waves on the other flank the opposite: then these are the
+/// heights beside the eccentricity that the other flank shows.
+std::pair<std::vector<double>, FlankChoice> heights_and_flank(
+    PartModel& model, const std::vector<std::size_t>& these,
+    const std::vector<std::size_t>& off_axis) {
+  std::vector<double> own = heights_of_patches(model, these);
+  const FlankChoice flank = flank_that_differs(model, own);
+  if (flank != FlankChoice::kBoth || off_axis.empty()) return {std::move(own), flank};
+  std::vector<std::size_t> all = these;
+  all.insert(all.end(), off_axis.begin(), off_axis.end());
+  const std::vector<double> together = heights_of_patches(model, all);
+  for (const int side : {1, -1}) {
+    std::vector<double> beside =
+        without_eccentricity(model, together, model.effects[off_axis.front()], side);
+    const FlankChoice of_all = flank_that_differs(model, beside);
+    if (of_all == flank_choice(model.geometry, side > 0 ? 0 : 1))
+      return {std::move(beside), of_all};
+  }
+  return {std::move(own), FlankChoice::kBoth};
+}
+
+/// The sector that follows best how far teeth stand out, and swellings about its middle; none where
+/// none do.
+std::vector<Effect> sectors_of_heights(const HeightOfTeeth& heights, const StandingOut& out) {
   const auto [first, teeth] = standing_out(heights);
   if (teeth < 2) return {};
   std::vector<Effect> forms{{find_family("unnamed_sector"),
-                             FlankChoice::kBoth,
-                             {double(first), double(teeth), 0.0, 0.0, opposite ? 1.0 : 0.0}}};
-  if (opposite) return forms;
+                             out.flank,
+                             {double(first), double(teeth), 0.0, 0.0, out.opposite ? 1.0 : 0.0}}};
+  if (out.opposite) return forms;
   for (double middle = -1.0; middle <= 1.0; middle += 0.5)
     for (double half = 0.3; half < 1.0; half *= 1.15)
       forms.push_back({find_family("unnamed_dent"),
-                       FlankChoice::kBoth,
+                       out.flank,
                        {first + 0.5 * (teeth - 1) + middle, half * teeth, 0.0, 0.0}});
   return forms;
 }
@@ -152,7 +245,7 @@ std::vector<Effect> with_soft_sector(const PartModel& model, const std::vector<s
   for (const double edge : {1.0, 2.0, 4.0, 8.0})
     if (edge <= sector.shape[1])
       forms.push_back({find_family("unnamed_soft_sector"),
-                       FlankChoice::kBoth,
+                       sector.flank,
                        {sector.shape[0] + 0.5 * (sector.shape[1] - 1.0), sector.shape[1], edge,
                         sector.shape[4]}});
   // Most of what waves are is no sector: then its edges are not sought.
@@ -176,7 +269,7 @@ std::vector<Effect> with_soft_sector(const PartModel& model, const std::vector<s
   if (spared < 0 || gain < kClearly - kValue * spared) return {};
   const double left = fit_of(model, with)->residual_square();
   for (const std::vector<Effect>& drifts :
-       drifts_from_every_tooth(model.geometry, sector.shape[4])) {
+       drifts_from_every_tooth(model.geometry, sector.flank, sector.shape[4])) {
     const std::vector<Effect> drift = with_best_form(model, others, drifts, {});
     if (!drift.empty() && fit_of(model, drift)->residual_square() < left) return {};
   }
@@ -186,9 +279,8 @@ std::vector<Effect> with_soft_sector(const PartModel& model, const std::vector<s
 /// A sector, or a swelling about its middle, for these effects: the one with sharp edges where that
 /// says as much. Of what stands on single teeth one with soft edges is tried for what is at these.
 std::vector<Effect> with_sector_for(PartModel& model, std::vector<std::size_t>& these,
-                                    bool opposite) {
+                                    const std::vector<Effect>& forms) {
   constexpr double kEdges = 16.0, kClearly = 9.0;  // where a sharp one begins and ends; chi-square
-  const std::vector<Effect> forms = sectors_in_place_of(model, these, opposite);
   if (forms.empty()) return {};
   std::vector<std::size_t> with_edges = these, sharp = these;
   std::erase_if(with_edges, [&](std::size_t e) {
@@ -294,7 +386,7 @@ bool tell_as_sector(PartModel& model) {
 
 std::vector<Effect> with_sector(PartModel& model, std::vector<std::size_t>& these) {
   const EffectFamily* sector_family = find_family("unnamed_sector");
-  std::vector<std::size_t> waves, moved, levels, teeth;
+  std::vector<std::size_t> waves, moved, levels, teeth, off_axis;
   std::vector<Effect> sectors;
   for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
     const Effect& effect = model.effects[e];
@@ -307,11 +399,19 @@ std::vector<Effect> with_sector(PartModel& model, std::vector<std::size_t>& thes
       waves.push_back(e);
     } else if (is_wave_of_teeth(effect)) {
       (effect.family->displacement_mm ? moved : waves).push_back(e);
+    } else if (moves_the_teeth(effect)) {
+      off_axis.push_back(e);
     } else if (runs_of(model.geometry, effect) == Runs::kNowhere) {
       levels.push_back(e);
     }
   }
   if (sectors.empty() && static_cast<int>(waves.size()) < kFewestWavesOfSector) return {};
+  const bool drifts =
+      std::any_of(model.effects.begin(), model.effects.end(), [](const Effect& effect) {
+        return (effect.family == find_family("unnamed_ramp") ||
+                effect.family == find_family("unnamed_levelling")) &&
+               effect.shape[1] == 0.0 && effect.shape[2] == 0.0;
+      });
   using Some = std::vector<std::vector<std::size_t>>;
   std::vector<std::size_t> before;
   for (const Some& with :
@@ -322,9 +422,14 @@ std::vector<Effect> with_sector(PartModel& model, std::vector<std::size_t>& thes
     std::sort(set.begin(), set.end());
     if (set == before) continue;
     before = set;
-    for (const bool opposite : {false, true}) {
+    const auto [heights, flank] = heights_and_flank(model, set, off_axis);
+    std::vector<StandingOut> outs{{}, {.opposite = true}};
+    // (waves beside a drift are what that leaves of another)
+    if (flank != FlankChoice::kBoth && !drifts) outs.insert(outs.begin(), {.flank = flank});
+    for (const StandingOut& out : outs) {
       these = set;
-      std::vector<Effect> with_one = with_sector_for(model, these, opposite);
+      std::vector<Effect> with_one = with_sector_for(
+          model, these, sectors_of_heights(heights_of_teeth(model, heights, out), out));
       if (!with_one.empty()) return with_one;
     }
   }
