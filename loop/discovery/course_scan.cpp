@@ -452,6 +452,14 @@ class CourseScan {
     return rough;
   }
 
+  /// True of a set in which courses have waves of their own: their crests are no spots.
+  [[nodiscard]] bool has_own_waves(int set) const {
+    constexpr double kSure = 1e-3;
+    return std::any_of(found_.begin(), found_.end(), [&](const CourseFinding& one) {
+      return one.kind == CourseKind::kOwnWaves && one.set == set && one.p_value < kSure;
+    });
+  }
+
   /// Windows in which a course stands apart: with wild points clipped; or as it is, where it runs
   /// there as smoothly as elsewhere.
   void look_for_spots() {
@@ -513,7 +521,7 @@ class CourseScan {
               normal,
               least_chance(most / spread, louds_[static_cast<std::size_t>(s)].degrees, normal));
           const auto set = static_cast<std::size_t>(s);
-          const bool as_usual = quick[set] && louds_[set].by[column] == 1.0;
+          const bool as_usual = quick[set] && louds_[set].by[column] == 1.0 && !has_own_waves(s);
           if (!clip)
             p = std::max(p,
                          student_two_sided(most / spread, as_usual ? kTailOfQuick : kTailOfSlow));

@@ -220,6 +220,11 @@ def named_form(gear, term, tooth, side, roll, z, v):
         direction = gear.normal_direction(tooth, side, roll, z)
         along = size * numpy.cos(direction) + term["sin_um"] * numpy.sin(direction)
         return numpy.where(z > term["height_mm"], along * math.cos(gear.beta_b), 0.0)
+    if term["form"] == "wave_of_radius":
+        alpha = math.atan(roll / gear.base)
+        polar = gear.normal_direction(tooth, side, roll, z) - side * (0.5 * math.pi - alpha)
+        out = size * numpy.cos(term["order"] * polar) + term["sin_um"] * numpy.sin(term["order"] * polar)
+        return out * math.sin(alpha) * math.cos(gear.beta_b)
     if term["form"] in ("thickness", "height_of_tooth", "slope_over_profile", "bow_over_profile",
                         "hollow_over_profile", "fall_towards_tip"):
         return 0.0 * z  # constant over a helix trace

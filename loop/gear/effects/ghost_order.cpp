@@ -93,9 +93,14 @@ EffectFamily ghost_order() {
   f.tells_order_along_profile = true;
   f.needs = [](const EffectShape&) { return NeedsToBeSeen{.along_profile = true}; };
   f.bends_over_the_face = [](const EffectShape&) { return true; };
-  f.sentence = [](const FlankGeometry&, const FoundEffect& found) {
+  f.sentence = [](const FlankGeometry& g, const FoundEffect& found) {
+    const double order = figure(found, "order");
+    const bool once_a_tooth = std::fmod(order, g.teeth()) == 0.0;
     return "A wave of " + um(figure(found, "amplitude_um")) + " lies over the flanks, " +
-           times_per_turn(figure(found, "order")) + ": the gear whines at that order";
+           times_per_turn(order) + ": " +
+           (once_a_tooth ? "it is the same on every tooth, so it may be the tool's form or runout "
+                           "as well as the machine's"
+                         : "the gear whines at that order");
   };
   return f;
 }

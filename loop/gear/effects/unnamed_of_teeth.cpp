@@ -105,7 +105,7 @@ const EffectFamily* of_teeth(const Effect& form) {
 }
 
 std::optional<Effect> on_the_other_teeth(const FlankGeometry& geometry, const Effect& form) {
-  constexpr std::size_t kAround = 9;  // of unnamed_crossed_around
+  constexpr std::size_t kAround = 2 * FlankCourse::kValues + 1;  // of unnamed_crossed_around
   const double z = geometry.teeth();
   const auto on_a_tooth = [z](double tooth) { return std::fmod(tooth - 1.0 + z, z) + 1.0; };
   Effect other = form;

@@ -112,16 +112,19 @@ class LoudPlaceSearch {
           if (const auto off = off_its_neighbours(parts[k - 1], parts[k], parts[k + 1], over_face))
             differences[member_of(parts_[parts[k]])].push_back(*off);
       }
-    const std::size_t fewest = of == LoudPlace::Of::kFlank ? kFewestOfAFlank : kFewestDifferences;
     std::vector<double> scatters, values;
     for (std::vector<double>& of_member : differences) {
       values.push_back(static_cast<double>(std::max<std::size_t>(1, of_member.size())));
-      scatters.push_back(of_member.size() < fewest ? 0.0 : robust_sigma(std::move(of_member)));
+      scatters.push_back(of_member.size() < kFewestToTell ? 0.0
+                                                          : robust_sigma(std::move(of_member)));
     }
     if (of == LoudPlace::Of::kFlank)
       for (std::size_t tooth = 0; tooth < members; ++tooth)
         flanks_.push_back(
             {static_cast<int>(tooth), static_cast<int>(side), scatters[tooth], values[tooth]});
+    // (what is known less well weighs nothing)
+    for (std::size_t k = 0; k < members; ++k)
+      if (values[k] < kFewestToWeigh) scatters[k] = 0.0;
     std::vector<double> factors = loudness_of(scatters, values).factors;
     const bool even = std::all_of(factors.begin(), factors.end(), [](double factor) {
       return factor < kWorth && factor > 1.0 / kWorth;
@@ -189,8 +192,8 @@ class LoudPlaceSearch {
       if (parts_[i].side == side) factors_[i] *= factor_of(parts_[i]);
   }
 
-  // (a place is of all flanks)
-  static constexpr std::size_t kFewestDifferences = 30, kFewestOfAFlank = 12;
+  static constexpr std::size_t kFewestToTell = 12;
+  static constexpr double kFewestToWeigh = 30.0;
   const std::vector<FlankPart>& parts_;
   std::size_t teeth_ = 0, profiles_ = 0, faces_ = 0;
   std::vector<std::size_t> at_;  ///< number of the part at a place

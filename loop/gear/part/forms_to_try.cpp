@@ -289,17 +289,17 @@ void add_beginning(int z, const CourseOverFlanks& course, FlankChoice flank, dou
       sectors.push_back(
           {find_family("unnamed_sector"), flank, {double(first), double(count), u, v, opposite}});
   // (all teeth of an index stand on a zero of its own)
-  const auto zero = [&](double grows) {
-    return u == 0.0 && v == 0.0 ? gear_effects::kMeanOfDrift
-                                : gear_effects::flat_end_of_drift(grows);
-  };
+  std::vector<double> zeros{gear_effects::kMeanOfDrift};
+  if (u != 0.0 || v != 0.0)
+    zeros.insert(zeros.end(), {gear_effects::kFirstOfDrift, gear_effects::kLastOfDrift});
   for (int first = 1; first <= z; ++first) {
     ramps.push_back({find_family("unnamed_ramp"), flank, {double(first), u, v, opposite}});
     for (const double share : {0.06, 0.12, 0.25, 0.5})
       for (const double grows : {0.0, 1.0})
-        levellings.push_back({find_family("unnamed_levelling"),
-                              flank,
-                              {double(first), u, v, opposite, grows, share * z, zero(grows)}});
+        for (const double zero : zeros)
+          levellings.push_back({find_family("unnamed_levelling"),
+                                flank,
+                                {double(first), u, v, opposite, grows, share * z, zero}});
     if (flank == FlankChoice::kBoth && u == 0.0 && v == 0.0)
       for (const double periods : {0.5, 0.75, 1.25, 1.5, 1.75, 2.25, 2.5, 2.75, 3.5})
         broken_waves.push_back(
