@@ -31,7 +31,7 @@ const char* held_where(double held) {
 
 }  // namespace
 
-/// Told in place of eccentricities, tilts and steps that follow it (part_loop_one_form.cpp), and no
+/// Told in place of eccentricities, tilts and steps that follow it (one_form.cpp), and no
 /// candidate of its own.
 EffectFamily unnamed_bow() {
   EffectFamily f = described("unnamed_bow", {"held_at"});
@@ -55,8 +55,8 @@ EffectFamily unnamed_bow() {
   return f;
 }
 
-/// Told in place of what moves sections piece by piece (part_loop_sections.cpp,
-/// part_loop_one_form.cpp), and no candidate of its own.
+/// Told in place of what moves sections piece by piece (whole_forms.cpp,
+/// one_form.cpp), and no candidate of its own.
 EffectFamily unnamed_axis_kink() {
   EffectFamily f = described("unnamed_axis_kink", {"height_mm", "towards"});
   f.columns = [](const EffectShape&) { return 2; };

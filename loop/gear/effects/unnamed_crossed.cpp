@@ -100,7 +100,7 @@ int sought_along(const EffectShape& shape) {
 
 /// A corner at the tip of both ends, a lean above a height, a hollow that ends along the face. Told
 /// in place of slopes, bows, twists and waves across the flanks that follow it
-/// (part_loop_products.cpp), and no candidate of its own.
+/// (products.cpp), and no candidate of its own.
 EffectFamily unnamed_crossed() {
   EffectFamily f = described("unnamed_crossed", kCourseNames);
   f.one_flank_too = true;
@@ -127,7 +127,7 @@ bool is_product_of_polynomials(const FlankGeometry& g, const Effect& form) {
 
 /// Resin or oil that gathers on the lower side, a tool that wears at its tip from tooth to tooth.
 /// Told in place of forms of some teeth, and once or more often per turn, that follow it
-/// (part_loop_products.cpp), and no candidate of its own.
+/// (products.cpp), and no candidate of its own.
 EffectFamily unnamed_crossed_around() {
   EffectFamily f = described("unnamed_crossed_around", kCourseNames);
   for (const char* name : {"around", "towards_deg", "half_deg"}) f.shape_names.emplace_back(name);
@@ -170,7 +170,7 @@ EffectFamily unnamed_crossed_around() {
 
 /// Waves over the profile (0) or the face (1), weighed by a course in the other direction, by one
 /// around the gear, or both: chatter that grows with the height, or of the teeth of one side. Told
-/// in place of waves and of what else follows them (part_loop_products.cpp), and no candidate of
+/// in place of waves and of what else follows them (products.cpp), and no candidate of
 /// its own.
 EffectFamily unnamed_crossed_waves() {
   constexpr std::size_t kOther = 2, kWhere = kOther + FlankCourse::kValues;

@@ -15,7 +15,7 @@ namespace trueflank::loop::gear_effects {
 
 /// A deviation along the normal that hangs on the direction which a flank faces, in so many waves a
 /// turn of it: once a turn it would be a shift, an eccentricity. Told in place of waves around the
-/// gear, which follow it (part_loop_field.cpp), and no candidate of its own.
+/// gear, which follow it (fields.cpp), and no candidate of its own.
 EffectFamily unnamed_facing() {
   EffectFamily f = described("unnamed_facing", {"waves_per_turn"});
   f.columns = [](const EffectShape&) { return 2; };

@@ -9,7 +9,7 @@ namespace trueflank::loop::gear_effects {
 /// Points are shifted by the square of where they stand in the plane: along x by x^2 and along y by
 /// y^2 (an axis whose scale changes), along x by y^2 and along y by x^2 (an axis that is bent), or
 /// by x y (a keystone). Told in place of an eccentricity and waves of orders 1 and 3, which follow
-/// it (part_loop_field.cpp), and no candidate of its own.
+/// it (fields.cpp), and no candidate of its own.
 EffectFamily unnamed_field() {
   EffectFamily f = described("unnamed_field", {"own_power"});
   f.columns = [](const EffectShape&) { return 2; };

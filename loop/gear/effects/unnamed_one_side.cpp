@@ -14,7 +14,7 @@ namespace trueflank::loop::gear_effects {
 /// What dies away from an end of the teeth (-1: the lower one, 1: the upper one) and is most on the
 /// teeth towards one direction: nothing on those opposite (`opposite` 0), or as much of the other
 /// sign there (1). Told in place of a foot of all teeth and forms once per turn, which follow it
-/// (part_loop_sections.cpp), and no candidate of its own.
+/// (whole_forms.cpp), and no candidate of its own.
 EffectFamily unnamed_one_side() {
   EffectFamily f =
       described("unnamed_one_side", {"end", "dies_within_mm", "towards_deg", "opposite"});
@@ -56,7 +56,7 @@ EffectFamily unnamed_one_side() {
 /// Swellings evenly spaced around the gear, or one, that die away from an end of the teeth: corners
 /// that lift from the plate, marks of ejectors or bolts. By the direction in which a place lies.
 /// Told in place of waves around the gear over the face and a foot of all teeth, which follow them
-/// (part_loop_around.cpp), and no candidate of its own.
+/// (forms_around.cpp), and no candidate of its own.
 EffectFamily unnamed_swellings_at_end() {
   EffectFamily f = described("unnamed_swellings_at_end",
                              {"number", "at_deg", "half_deg", "end", "dies_within_mm"});

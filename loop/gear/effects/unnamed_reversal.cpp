@@ -8,7 +8,7 @@ namespace trueflank::loop::gear_effects {
 
 /// Places are displaced along one axis of the machine (0: x, 1: y), by the sign in which it travels
 /// there along the contour: its play. Steps where flanks face along that axis. Told in place of
-/// waves, swellings and odd teeth around the gear (part_loop_sections.cpp), and no candidate of its
+/// waves, swellings and odd teeth around the gear (whole_forms.cpp), and no candidate of its
 /// own.
 EffectFamily unnamed_reversal() {
   EffectFamily f = described("unnamed_reversal", {"axis"});

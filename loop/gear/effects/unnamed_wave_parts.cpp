@@ -12,7 +12,7 @@
 #include "trueflank/loop/gear/effects/registry.h"
 
 // Waves of one length that do not run over the whole flank alike. Told in place of waves of several
-// lengths and of forms that follow them together (part_loop_one_form.cpp), and no candidates of
+// lengths and of forms that follow them together (one_form.cpp), and no candidates of
 // their own.
 namespace trueflank::loop::gear_effects {
 namespace {

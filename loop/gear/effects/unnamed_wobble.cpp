@@ -13,7 +13,7 @@ namespace trueflank::loop::gear_effects {
 /// Whole sections stand aside in waves over the height: to and fro towards one direction (`turns`
 /// 0), or all around, with the height counter-clockwise (1) or clockwise (-1). Told in place of
 /// eccentricities, tilts, steps and forms once per turn, which follow it piece by piece
-/// (part_loop_sections.cpp), and no candidate of its own.
+/// (whole_forms.cpp), and no candidate of its own.
 EffectFamily unnamed_wobble() {
   EffectFamily f = described("unnamed_wobble", {"wavelength_mm", "towards_deg", "turns"});
   f.columns = [](const EffectShape&) { return 2; };

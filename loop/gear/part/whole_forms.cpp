@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whole sections that stand aside by an amount that changes with the height, feet of one side and
 // play of an axis: what was chosen is in pieces, with names among them. The form is taken up, and
-// all else is chosen anew beside it. So are forms of some teeth (part_loop_runs_of_teeth.cpp), and
+// all else is chosen anew beside it. So are forms of some teeth (forms_of_runs.cpp), and
 // sectors with soft edges.
 #include "trueflank/loop/gear/part/whole_forms.h"
 
