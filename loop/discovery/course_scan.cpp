@@ -93,7 +93,7 @@ class CourseScan {
   /// One set may be measured worse: where its courses scatter more by more than chance, it has an
   /// error of its own.
   void tell_noise() {
-    constexpr double kVarianceOfLog = 2.5, kSure = 4.0, kMore = 1.3;
+    constexpr double kSure = 4.0, kMore = 1.3;
     noise_.assign(sets_.size(), 1.0);
     double squares = 0.0, degrees = 0.0, least = 1e300, most = 0.0, fewest = 1e300;
     for (std::size_t s = 0; s < sets_.size(); ++s) {
@@ -108,7 +108,7 @@ class CourseScan {
       most = std::max(most, own);
       fewest = std::min(fewest, courses * static_cast<double>(m_));
     }
-    const double by_chance = kSure * std::sqrt(2.0 * kVarianceOfLog / fewest);
+    const double by_chance = kSure * std::sqrt(2.0 * kVarianceOfLogScatter / fewest);
     if (std::log(most / least) < std::max(std::log(kMore), by_chance)) {
       noise_.assign(sets_.size(), 1.0);
       return;

@@ -15,6 +15,9 @@ namespace trueflank::loop {
 /// where most values do not differ.
 [[nodiscard]] double short_wave_scatter(const Eigen::VectorXd& course);
 
+/// Variance of the logarithm of a robust scatter, times the number of differences it was told from.
+inline constexpr double kVarianceOfLogScatter = 2.5;
+
 /// By what factor the random error of each member is larger than that of the usual one, and with
 /// how many degrees of freedom these factors are known; infinite where all members are taken as
 /// alike.

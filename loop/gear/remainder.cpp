@@ -14,6 +14,7 @@
 #include "trueflank/base/threads.h"
 #include "trueflank/loop/discovery/course_scan.h"
 #include "trueflank/loop/discovery/loudness.h"
+#include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/discovery/trend_scan.h"
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"

@@ -78,6 +78,18 @@ TEST(ShortenedTips, OfNeighbouringPlanetsLeaveAFiftiethOfAModuleEach) {
   EXPECT_FALSE(shorten_at_roots(laid_out(design), judgement, none));
 }
 
+Judgement failing_judgement(const char* id) {
+  return {.complaints = {{.id = id, .layer = 1, .lacking = 0.1, .fails = true}}};
+}
+/// What the wheel's tip becomes where one is written and a check fails; 0: it stays.
+double shortened_wheel_mm(GearboxDesign& design, double tip_diameter_mm, const char* id) {
+  gear(design, "wheel").tip_diameter_mm = tip_diameter_mm;
+  DesignChange change;
+  const bool any = shorten_given(laid_out(design), failing_judgement(id), change);
+  EXPECT_EQ(any, !change.tip_diameter_mm.empty());
+  return any ? change.tip_diameter_mm.at(1) : 0.0;
+}
+
 TEST(ShortenedTips, ThatAreWrittenAndDigIntoAFilletEndWhereClearOnesDo) {
   GearboxDesign design = pair_design(12, 60, false, 0.05);
   design.tips = TipCircles::kClear;
@@ -85,15 +97,8 @@ TEST(ShortenedTips, ThatAreWrittenAndDigIntoAFilletEndWhereClearOnesDo) {
   const GearTrain open = laid_out(design);
   ASSERT_GT(open.gears[1].tip_shortened_mm, 0.0);
   const double clear_mm = 2.0 * open.gears[1].profile.gear().tip_radius_mm;
-  const auto complaint = [](const char* id) {
-    return Judgement{.complaints = {{.id = id, .layer = 1, .lacking = 0.1, .fails = true}}};
-  };
   const auto shortened = [&](double by_mm, const char* id) {
-    gear(design, "wheel").tip_diameter_mm = clear_mm + by_mm;
-    DesignChange change;
-    const bool any = shorten_given(laid_out(design), complaint(id), change);
-    EXPECT_EQ(any, !change.tip_diameter_mm.empty());
-    return any ? change.tip_diameter_mm.at(1) : 0.0;
+    return shortened_wheel_mm(design, clear_mm + by_mm, id);
   };
   EXPECT_NEAR(shortened(0.4, "fillet_interference"), clear_mm, 1.1e-3);
   EXPECT_LE(shortened(0.4, "fillet_interference"), clear_mm);
@@ -108,7 +113,7 @@ TEST(ShortenedTips, ThatAreWrittenAndDigIntoAFilletEndWhereClearOnesDo) {
   // tips that are not written follow by themselves
   gear(design, "wheel").tip_diameter_mm.reset();
   DesignChange none;
-  EXPECT_FALSE(shorten_given(laid_out(design), complaint("fillet_interference"), none));
+  EXPECT_FALSE(shorten_given(laid_out(design), failing_judgement("fillet_interference"), none));
 }
 
 TEST(ShortenedTips, OfARingThatAreWrittenEndWhereClearOnesDoToo) {
@@ -119,11 +124,7 @@ TEST(ShortenedTips, OfARingThatAreWrittenEndWhereClearOnesDoToo) {
   ASSERT_GT(open.gears[1].tip_shortened_mm, 0.0);
   const double clear_mm = 2.0 * open.gears[1].profile.gear().tip_radius_mm;
   const auto shortened = [&](double by_mm, const char* id) {
-    gear(design, "wheel").tip_diameter_mm = clear_mm - by_mm;
-    DesignChange change;
-    const Judgement judgement{
-        .complaints = {{.id = id, .layer = 1, .lacking = 0.1, .fails = true}}};
-    return shorten_given(laid_out(design), judgement, change) ? change.tip_diameter_mm.at(1) : 0.0;
+    return shortened_wheel_mm(design, clear_mm - by_mm, id);
   };
   EXPECT_NEAR(shortened(0.4, "fillet_interference"), clear_mm, 1.1e-3);
   EXPECT_GE(shortened(0.4, "fillet_interference"), clear_mm);

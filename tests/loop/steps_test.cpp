@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 #include <regex>
 
 #include "tests/loop/made_gears.h"
@@ -31,12 +30,11 @@ double told_edge_mm(const loop::LoopResult& result) {
              ? std::stod(found[1])
              : 0.0;
 }
-void expect_step(const loop::LoopResult& result, const std::string& words, std::size_t effects,
-                 loop::Verdict verdict = loop::Verdict::kExplained) {
+void expect_step(const loop::LoopResult& result, const std::string& words, std::size_t effects) {
   EXPECT_TRUE(tells_of(result, "a step over")) << list(result);
   EXPECT_TRUE(tells_of(result, words)) << list(result);
   EXPECT_EQ(result.effects.size(), effects) << list(result);
-  EXPECT_EQ(result.verdict, verdict) << list(result);
+  EXPECT_NE(result.verdict, loop::Verdict::kNoEffect) << list(result);
 }
 
 TEST(SoftStep, OfScansIsOneFormWithTheLengthOfItsEdge) {
@@ -46,32 +44,29 @@ TEST(SoftStep, OfScansIsOneFormWithTheLengthOfItsEdge) {
           gear, scan_of(gear, {stepped(20.0, 0.24, edge, true)}, scanned(8000, 2.5, 21)), true);
       expect_step(result, "opposite on the two flanks: above it the teeth stand counter-clockwise",
                   1);
-      EXPECT_NEAR(told_edge_mm(result), 0.5 * edge * gear.face_mm, 0.2 * edge * gear.face_mm);
+      EXPECT_NEAR(told_edge_mm(result), 0.5 * edge * gear.face_mm, 0.06 * edge * gear.face_mm);
+      EXPECT_NEAR(parameter(result.effects[0], "amplitude_um").value, 20.0, 0.6) << list(result);
     }
 }
 
 TEST(SoftStep, OfTracesIsOneForm) {
   const MadeGear gear = spur(28);
-  std::vector<int> all(28);
-  std::iota(all.begin(), all.end(), 1);
-  for (const std::vector<int>& teeth : {std::vector<int>{1, 10, 19}, all})
-    expect_step(
-        close(gear, inspection_of(gear, {stepped(4.0, 0.3, 0.3, true)}, traced(teeth, 0.5, 22))),
-        "opposite on the two flanks", 1);
-  // The corners of a ramp are seen where all teeth show them, and said to be left.
-  expect_step(
-      close(gear, inspection_of(gear, {stepped(4.0, 0.3, 0.3, true, ramp)}, traced(all, 0.5, 22))),
-      "opposite on the two flanks", 1, loop::Verdict::kPartlyExplained);
+  const std::vector<int> few{1, 10, 19}, all;
+  for (const auto course : {eased, ramp})
+    for (const std::vector<int>& teeth : {few, all}) {
+      const auto result = close(gear, inspection_of(gear, {stepped(4.0, 0.3, 0.3, true, course)},
+                                                    traced(teeth, 0.5, 22)));
+      expect_step(result, "opposite on the two flanks", 1);
+      EXPECT_NEAR(parameter(result.effects[0], "amplitude_um").value, 4.0, 0.2) << list(result);
+    }
 }
 
 TEST(SoftStep, StandsBesideNames) {
   const MadeGear gear = spur(28);
-  std::vector<int> all(28);
-  std::iota(all.begin(), all.end(), 1);
   const Process names =
       grown([](auto&, const FlankSpot& s, auto&) { return 3.5 * s.v - 5.5 * s.v * s.v; });
   const auto result = close(
-      gear, inspection_of(gear, {names, stepped(-2.6, -0.35, 0.2, true)}, traced(all, 0.7, 23)));
+      gear, inspection_of(gear, {names, stepped(-2.6, -0.35, 0.2, true)}, traced({}, 0.7, 23)));
   expect_step(result, "above it the teeth stand clockwise", 3);
   expect_size(result, "taper", "slope_um", 7.0, 0.5);
   expect_size(result, "crowning", "amount_um", 5.5, 0.5);

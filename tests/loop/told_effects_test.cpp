@@ -58,6 +58,20 @@ TEST(ToldEffects, EveryNamedEffectHasASentenceOfItsOwn) {
   }
 }
 
+TEST(ToldEffects, AWaveOfAsManyPeriodsAsTeethMayBeTheTools) {
+  const auto geometry = geometry_of(spur(24));
+  const auto sentence = [&](double order) {
+    return loop::find_family("ghost_order")
+        ->sentence(geometry,
+                   {.id = "ghost_order",
+                    .parameters = {{"amplitude_um", 2.0}, {"phase_deg", 10.0}, {"order", order}}});
+  };
+  for (const double order : {24.0, 48.0})
+    EXPECT_THAT(sentence(order), HasSubstr("the same on every tooth")) << order;
+  for (const double order : {12.0, 25.0, 36.0})
+    EXPECT_THAT(sentence(order), HasSubstr("the gear whines at that order")) << order;
+}
+
 TEST(ToldEffects, SharesAddUpToWhatTheWholeFitExplains) {
   const auto relief = grown([](auto&, const FlankSpot& s, auto&) {
     return s.u > 0.3 ? -20.0 * std::pow((s.u - 0.3) / 0.7, 2) : 0.0;

@@ -44,7 +44,7 @@ double FlankCourse::value(const FlankGeometry& g, double face, double at_mm) con
       return across;
     case kStep: {
       const double off = (at_mm - stands_at(g, face, mm)) * (high > low ? towards : -towards);
-      return half_mm > 0.0 ? 0.5 * (1.0 + std::tanh(off / half_mm)) : off > 0.0 ? 1.0 : 0.0;
+      return beyond_edge(off, 2.0 * half_mm);
     }
     case kKink:
       return beyond();

@@ -169,20 +169,15 @@ namespace {
 /// its last. (A level that it would come to after the last tooth stands on none.)
 double uneven_drift(const FlankGeometry& g, int tooth, const EffectShape& shape) {
   const double z = g.teeth(), grows = shape[4], within = shape[5];
-  // 1 at the steep end and dying away from it to `flat`; the mean is a geometric sum.
-  struct Course {
-    double teeth = 0.0, within = 0.0, flat = 0.0, mean = 0.0;
-  };
-  thread_local Course course;  // (asked for all places of one drift after the other)
-  if (course.teeth != z || course.within != within)
-    course = {z, within, std::exp(-(z - 1.0) / within),
-              std::expm1(-z / within) / (z * std::expm1(-1.0 / within))};
+  // 1 at the steep end and dying away from it; the mean is a geometric sum.
+  const double flat = std::exp(-(z - 1.0) / within),
+               mean = std::expm1(-z / within) / (z * std::expm1(-1.0 / within));
   const double since = teeth_since(g, tooth, shape[0]);
   const double here = std::exp(-(grows != 0.0 ? z - 1.0 - since : since) / within);
-  const double nothing = shape[6] == kMeanOfDrift               ? course.mean
-                         : shape[6] == flat_end_of_drift(grows) ? course.flat
+  const double nothing = shape[6] == kMeanOfDrift               ? mean
+                         : shape[6] == flat_end_of_drift(grows) ? flat
                                                                 : 1.0;
-  return (grows != 0.0 ? 1.0 : -1.0) * (here - nothing) / (1.0 - course.flat);
+  return (grows != 0.0 ? 1.0 : -1.0) * (here - nothing) / (1.0 - flat);
 }
 
 }  // namespace

@@ -137,7 +137,7 @@ class LoudPlaceSearch {
   /// Loud members that stand side by side are one place; flanks are told one by one.
   void tell_places(std::size_t side, LoudPlace::Of of, const std::vector<double>& factors,
                    const std::vector<double>& scatters, const std::vector<double>& values) {
-    constexpr double kTold = 2.0, kVarianceOfLog = 2.5;  // the latter over the number of values
+    constexpr double kTold = 2.0;
     const auto known = static_cast<double>(
         std::count_if(scatters.begin(), scatters.end(), [](double s) { return s > 0.0; }));
     bool goes_on = false;
@@ -149,8 +149,8 @@ class LoudPlaceSearch {
         continue;
       }
       const double log = std::log(factors[k]);
-      const double p =
-          std::min(1.0, known * normal_two_sided(log / std::sqrt(kVarianceOfLog / values[k])));
+      const double p = std::min(
+          1.0, known * normal_two_sided(log / std::sqrt(kVarianceOfLogScatter / values[k])));
       const auto number = static_cast<int>(k);
       if (!goes_on || of == LoudPlace::Of::kFlank) {
         places_.push_back({.of = of, .side = side, .first = number, .p_value = p});

@@ -9,6 +9,7 @@
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/discovery/loudness.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 
 namespace trueflank::loop {
@@ -112,11 +113,11 @@ class OddTeeth {
   /// True of a flank whose values scatter from place to place by so much more than usual that its
   /// mean square, so many times the usual one, may be that alone.
   [[nodiscard]] bool may_be_louder(int side, int tooth, double times) const {
-    constexpr double kSure = 3.0, kVarianceOfLog = 2.5;  // the latter over the number of values
+    constexpr double kSure = 3.0;
     const ToothMoments& own = of(side, tooth);
     if (!(own.scatter > 1.0)) return false;
     return 0.5 * std::log(times) + std::log(own.loud) <
-           std::log(own.scatter) + kSure * std::sqrt(kVarianceOfLog / own.scatter_values);
+           std::log(own.scatter) + kSure * std::sqrt(kVarianceOfLogScatter / own.scatter_values);
   }
   void tell_usual() {
     for (const int side : {0, 1}) {

@@ -38,8 +38,8 @@ bool is_wave_along(const Effect& effect) {
          std::find(names.begin(), names.end(), "wavelength_mm") != names.end();
 }
 
-/// The cheapest product that stands for effects of an answer, as they are asked one after the
-/// other.
+/// The cheapest step or product that stands for effects of an answer, as they are asked one after
+/// the other.
 class Products {
  public:
   explicit Products(const PartModel& model)
