@@ -469,6 +469,12 @@ class TableBuilder {
 
 }  // namespace
 
+bool is_traced(const Observations& table) {
+  return std::any_of(table.rows.begin(), table.rows.end(), [](const Observation& row) {
+    return row.kind == ObservationKind::kProfile || row.kind == ObservationKind::kHelix;
+  });
+}
+
 void as_designed(const FlankGeometry& geometry, const Observations& table,
                  std::span<const std::size_t> rows, PlacedPoint* found) {
   constexpr std::size_t kAtOnce = 64;

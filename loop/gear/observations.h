@@ -65,6 +65,9 @@ struct Observations {
   }
 };
 
+/// Whether rows of profile or helix traces are among them.
+[[nodiscard]] bool is_traced(const Observations& table);
+
 /// Points further from every surface, in normal modules, are on none.
 inline constexpr double kReachOfNearest = 0.35;
 

@@ -89,6 +89,20 @@ TEST(SoftStep, OfBothFlanksAlikeStandsBesideALevel) {
   EXPECT_LE(result.effects.size(), 2U) << list(result);
 }
 
+TEST(SoftStep, TowardsAnEndStandsBesideALevelAndALead) {
+  const MadeGear gear = spur(31);
+  const Process lead = grown([](auto&, const FlankSpot&s, auto&) { return -4.1 * s.side * s.v; }),
+                level = grown([](auto&, auto&, auto&) { return 5.6; });
+  for (const unsigned seed : {1U, 2U}) {
+    const auto result = close(
+        gear,
+        scan_of(gear, {lead, level, stepped(-5.6, -0.57, 0.15, false)}, scanned(5000, 1.1, seed)),
+        true);
+    expect_step(result, "above it the flanks lie back", 3);
+    expect_size(result, "helix_error", "slope_um", -8.2, 0.3);
+  }
+}
+
 // What is no step: a sharp one has no edge, and what runs all over the face bends.
 TEST(SoftStep, IsNotMadeOfASharpOneNorOfAnS) {
   const MadeGear gear = spur(27);

@@ -49,13 +49,6 @@ class FlanksAlike {
     return {course.dot(weight_.cwiseProduct(course)), left,
             left > 0.0 ? product * product / left : 0.0};
   }
-  /// What polynomials of the next three degrees take out: as many values as a step has.
-  [[nodiscard]] double taken_by_polynomials(int degrees) const {
-    double gain = 0.0;
-    for (int degree = degrees; degree < degrees + 3; ++degree)
-      gain += taken_by((2.0 * places().array() - 1.0).pow(degree).matrix(), degree).gain;
-    return gain;
-  }
 
  private:
   [[nodiscard]] InCells beside(const InCells& course, int degrees) const {
@@ -85,8 +78,6 @@ std::vector<LikelyForms> likeliest_steps(const FlankGeometry& g, const OfTeeth& 
   double most = 0.0;
   for (const FlankWay& way : flank_ways(g)) {
     const FlanksAlike flanks(teeth, face, way);
-    // (what slope, bow and S say as well is no step)
-    const double least = flanks.taken_by_polynomials(degrees);
     LikelyForms list;
     for (const double edge : kEdges) {
       Likely best;
@@ -106,7 +97,7 @@ std::vector<LikelyForms> likeliest_steps(const FlankGeometry& g, const OfTeeth& 
                  way.flank,
                  {face, place_mm, way.opposite ? 1.0 : 0.0, edge * range}}};
       }
-      if (!(best.gain > least)) continue;
+      if (best.form.family == nullptr) continue;
       list.gain = std::max(list.gain, best.gain);
       list.forms.push_back(std::move(best.form));
     }

@@ -11,23 +11,9 @@
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/runs_along.h"
+#include "trueflank/loop/gear/part/sets_to_try.h"
 
 namespace trueflank::loop {
-
-std::vector<std::vector<std::size_t>> with_and_without(const std::vector<std::size_t>& all,
-                                                       const std::vector<std::size_t>& names) {
-  std::vector<std::vector<std::size_t>> sets{all};
-  for (const std::size_t kept : names) {
-    sets.push_back(all);
-    std::erase(sets.back(), kept);
-  }
-  if (names.size() > 1) {
-    sets.push_back(all);
-    for (const std::size_t kept : names) std::erase(sets.back(), kept);
-  }
-  std::erase_if(sets, [](const auto& set) { return set.empty(); });
-  return sets;
-}
 
 std::vector<std::vector<std::size_t>> crossed_sets(const PartModel& model, int fewest_values) {
   std::vector<std::size_t> all, names;

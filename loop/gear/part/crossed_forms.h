@@ -5,9 +5,6 @@
 
 namespace trueflank::loop {
 
-/// All of these, and that less each name, and less all names: what a form is tried in place of.
-[[nodiscard]] std::vector<std::vector<std::size_t>> with_and_without(
-    const std::vector<std::size_t>& all, const std::vector<std::size_t>& names);
 /// Sets of what is told: all that is the same on every tooth, and that less each name, and less all
 /// names; empty where nothing of it runs over profile and face at once, or it has fewer values.
 [[nodiscard]] std::vector<std::vector<std::size_t>> crossed_sets(const PartModel& model,

@@ -13,6 +13,7 @@
 #include "trueflank/loop/gear/local/forms_on_teeth.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/runs_along.h"
+#include "trueflank/loop/gear/part/sets_to_try.h"
 
 namespace trueflank::loop {
 namespace {
@@ -98,16 +99,6 @@ bool has_course_on_all(const FlankGeometry& geometry, const Effect& effect,
     if (std::abs(here.dot(course)) < kAlike * here.norm() * course.norm()) return false;
   }
   return true;
-}
-
-/// All of these, then two of them, then one.
-std::vector<std::vector<std::size_t>> most_first(const std::vector<std::size_t>& all) {
-  std::vector<std::vector<std::size_t>> sets;
-  if (all.size() > 2) sets.push_back(all);
-  for (std::size_t a = 0; a < all.size(); ++a)
-    for (std::size_t b = a + 1; b < all.size(); ++b) sets.push_back({all[a], all[b]});
-  for (const std::size_t one : all) sets.push_back({one});
-  return sets;
 }
 
 }  // namespace
@@ -200,7 +191,7 @@ bool tell_of_the_other_teeth(PartModel& model) {
     for (std::size_t k = first_told_here(model); k < model.effects.size(); ++k)
       if (has_course_on_all(model.geometry, model.effects[k], course)) of_all.push_back(k);
     const double now = fit_of(model, model.effects)->residual_square();
-    for (const std::vector<std::size_t>& some : most_first(of_all)) {
+    for (const std::vector<std::size_t>& some : all_pairs_and_each(of_all)) {
       std::vector<std::size_t> these = some;
       these.push_back(e);
       std::sort(these.begin(), these.end());

@@ -21,6 +21,7 @@
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/runs_along.h"
 #include "trueflank/loop/gear/part/sectors.h"
+#include "trueflank/loop/gear/part/sets_to_try.h"
 #include "trueflank/loop/gear/part/taken_up.h"
 #include "trueflank/loop/gear/part/waves.h"
 #include "trueflank/loop/gear/possible_effects.h"
@@ -564,13 +565,8 @@ void tell_as_one_form(PartModel& model) {
       for (const int face : {0, 1}) {
         const std::vector<std::size_t>& all = along[static_cast<std::size_t>(face)];
         if (tell_as_part_of_a_wave(model, all, face, flank)) return true;
-        std::vector<std::vector<std::size_t>> sets;
-        if (all.size() > 2) sets.push_back(all);
-        for (std::size_t a = 0; a < all.size(); ++a)
-          for (std::size_t b = a + 1; b < all.size(); ++b) sets.push_back({all[a], all[b]});
-        for (const std::size_t e : all) sets.push_back({e});
         // Forms alone are asked all at once: a rise towards an end was a kink beside a groove.
-        for (const std::vector<std::size_t>& set : sets)
+        for (const std::vector<std::size_t>& set : all_pairs_and_each(all))
           if ((has_name(set) || (set.size() > 1 && set.size() == all.size())) &&
               along_one(set, face, flank))
             return true;

@@ -24,12 +24,6 @@ bool is_one_a_tooth(const Observation& row) {
   return row.kind == ObservationKind::kIndex || row.kind == ObservationKind::kRadial;
 }
 
-bool is_traced(const Observations& table) {
-  return std::any_of(table.rows.begin(), table.rows.end(), [](const Observation& row) {
-    return row.kind == ObservationKind::kProfile || row.kind == ObservationKind::kHelix;
-  });
-}
-
 /// The table with these values alone; its traces and sources keep their numbers.
 Observations values_one_a_tooth(const Observations& table) {
   Observations single;
