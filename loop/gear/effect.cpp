@@ -29,8 +29,12 @@ double ToldForm::direction_rad() const {
   return amounts.size() == 2 ? std::atan2(amounts[1], amounts[0]) : kNaN;
 }
 
+bool Effect::acts_on_flank_of(const FlankGeometry& geometry, const Place& place) const {
+  return flank == FlankChoice::kBoth || flank == flank_of(geometry, place);
+}
+
 void Effect::evaluate(const FlankGeometry& geometry, const Place& place, double* values) const {
-  if (flank == FlankChoice::kBoth || flank == flank_of(geometry, place))
+  if (acts_on_flank_of(geometry, place))
     family->evaluate(geometry, place, shape, values);
   else
     std::fill_n(values, columns(), 0.0);

@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -76,6 +77,14 @@ struct EffectFamily : EffectFacts {
   double operations = 40.0;  ///< of an evaluation, about: what it costs
   /// Depends on nothing but the flank, its roll length and the height: the same on every tooth. Empty: it is not.
   std::function<bool(const EffectShape&)> same_on_every_tooth = {};
+  /// Of columns that are a form, the same on every tooth, times a factor of the tooth each: the two
+  /// apart, for whoever asks many rows of few teeth. 0: the form does not act there. Empty: they
+  /// are not of that kind.
+  struct FormTimesTooth {
+    std::function<void(const FlankGeometry&, int tooth, const EffectShape&, double* factors)> tooth;
+    std::function<double(const FlankGeometry&, const Place& on_flank, const EffectShape&)> form;
+  };
+  std::optional<FormTimesTooth> form_times_tooth = {};
   bool shape_is_continuous = false;  ///< refined after the choice
   bool shape_is_step = false;        ///< the first value is a height at which the deviation jumps
   bool is_one_of_its_shapes = false; ///< once in a model, as when its shape is continuous
@@ -152,6 +161,8 @@ struct Effect {
 
   [[nodiscard]] bool operator==(const Effect&) const = default;
   [[nodiscard]] int columns() const { return family->columns(shape); }
+  /// Whether it acts on the flank that a place is on; true of places on none.
+  [[nodiscard]] bool acts_on_flank_of(const FlankGeometry& geometry, const Place& place) const;
   /// Columns at a place; zero where the effect does not act on that flank.
   void evaluate(const FlankGeometry& geometry, const Place& place, double* values) const;
   /// Waves around the gear; 0: none.

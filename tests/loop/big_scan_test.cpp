@@ -8,6 +8,7 @@
 
 #include "tests/loop/made_gears.h"
 #include "trueflank/loop/gear/finite_displacement.h"
+#include "trueflank/loop/gear/part/choice.h"
 #include "trueflank/loop/gear/plain_rms.h"
 #include "trueflank/loop/gear/table/rows_by_class.h"
 #include "trueflank/loop/gear/table/shared_table.h"
@@ -76,6 +77,42 @@ TEST_F(OffAxis, ASampleTellsWhetherPointsWouldBeMovedAgain) {
   const double again = change_of_sample_um(geometry_, fit_of_eccentricity(), table_);
   EXPECT_GT(first, 0.1);
   EXPECT_LT(again, 0.01 * first);
+}
+
+TEST_F(OffAxis, WhatStandsOutIsMovedBackBeforeAnythingIsChosen) {
+  const double first = change_of_sample_um(geometry_, fit_of_eccentricity(), table_);
+  loop::PartModel model(geometry_, table_, {});
+  divide_into_patches(model);
+  move_back_what_is_off_centre(model);
+  ASSERT_TRUE(model.table->is_displaced);
+  const loop::Effect eccentricity{loop::find_family("eccentricity")};
+  const double again = change_of_sample_um(geometry_, *fit_of(model, {eccentricity}), model.table);
+  EXPECT_LT(again, 0.05 * first);  // as from one choice to the next
+}
+
+TEST_F(OffAxis, PointsStayWhereNoEccentricityIsLookedFor) {
+  loop::PartOptions options;
+  options.given = {{loop::find_family("scale")}};
+  loop::PartModel given(geometry_, table_, options);
+  loop::PartModel banned(geometry_, table_, {});
+  banned.banned.assign(banned.candidates.size(), true);
+  for (loop::PartModel* model : {&given, &banned}) {
+    divide_into_patches(*model);
+    move_back_what_is_off_centre(*model);
+    EXPECT_FALSE(model->table->is_displaced);
+  }
+}
+
+TEST_F(OffAxis, PointsOnTheirAxisStayWhereTheyAre) {
+  for (const std::vector<Process>& process : {std::vector<Process>{}, {scaled(0.2)}}) {
+    loop::MeasuredData data;
+    data.scans.push_back(scan_of(gear_, process, {.points = 6000, .noise_um = 2.0, .bore = true}));
+    loop::PartModel model(geometry_,
+                          *make_observations(geometry_, std::move(data), {.aligned = true}), {});
+    divide_into_patches(model);
+    move_back_what_is_off_centre(model);
+    EXPECT_FALSE(model.table->is_displaced);
+  }
 }
 
 TEST_F(OffAxis, ResidualsAskedForAgainAreTheSameWhileSomebodyHoldsThem) {

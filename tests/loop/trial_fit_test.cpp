@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "tests/loop/made_gears.h"
 #include "trueflank/loop/gear/fit/point_fit.h"
 #include "trueflank/loop/gear/shape_refinement.h"
@@ -344,6 +346,79 @@ TEST_F(TrialFitsOfTraces, ShapesThatAreAlikeOnAllTeethAreTriedAsTheWholeFitDoes)
       EXPECT_NEAR(moved.as_is(e).retained, trials[i].retained, 1e-9);
     }
   }
+}
+
+/// Shapes of families that are a form times factors of teeth, the first one to begin with. Over the
+/// profile helix traces do not differ.
+struct TriedAround {
+  std::string id;
+  std::vector<loop::EffectShape> shapes;
+  loop::FlankChoice flank = loop::FlankChoice::kBoth;
+};
+const std::vector<TriedAround> kTriedAround{
+    {"unnamed_levelling",
+     {{3, 0, 1, 0, 0, 4.0, 0},
+      {9, 0, 1, 0, 1, 6.0, 1},
+      {9, 0, 2, 1, 0, 2.5, 2},
+      {7, 0, 0, 0, 0, 5.0, 0}}},
+    {"unnamed_ramp", {{4, 0, 1, 0}, {11, 0, 1, 1}, {11, 0, 2, 0}}, loop::FlankChoice::kLeft},
+    {"unnamed_sector", {{4, 6, 0, 1, 0}, {5, 6, 0, 1, 0}, {22, 5, 0, 0, 1}}},
+    {"unnamed_soft_sector", {{8.0, 7.0, 2.0, 0}, {8.3, 7.5, 1.0, 1}}},
+    {"unnamed_drift_of_some", {{4, 9, 0, 1, 0, 0}, {5, 9, 0, 1, 0, 1}, {5, 8, 0, 0, 1, 0}}},
+    {"unnamed_broken_wave", {{1.5, 4, 0}, {1.25, 6, 1}}},
+    {"unnamed_stairs", {{2, 9, 17, 0}, {3, 9, 17, 1}, {3, 10, 20, 0}}},
+    {"unnamed_wave_of_some", {{3, 11, 4.0, 0}, {3, 10, 4.4, 1}}, loop::FlankChoice::kRight}};
+
+TEST_F(TrialFitsOfTraces, FormsTimesFactorsOfTeethAreTriedAsTheWholeFitDoes) {
+  InspectionOptions options;
+  for (int tooth = 1; tooth <= gear_.teeth; tooth += 2) options.teeth.push_back(tooth);
+  options.points = 30;
+  options.radial = true;
+  loop::MeasuredData data;
+  data.inspections.push_back(inspection_of(gear_, {off_centre(6.0, 30.0)}, options));
+  const loop::Observations with_radial = *make_observations(geometry_, data, {});
+  for (const loop::Observations* table :
+       std::array<const loop::Observations*, 2>{&table_, &with_radial}) {
+    const loop::Patches patches = make_patches(geometry_, *table);
+    for (const TriedAround& tried : kTriedAround) {
+      const loop::EffectFamily* of_family = family(tried.id);
+      ASSERT_TRUE(of_family->form_times_tooth) << tried.id;
+      const auto effects_with = [&](const loop::EffectShape& shape) {
+        return std::vector<Effect>{of("unnamed_waviness", {1.0, 3.3}),
+                                   {of_family, tried.flank, shape}};
+      };
+      const loop::TrialFit fit(geometry_, *table, patches, effects_with(tried.shapes.front()));
+      const auto trials = fit.with_shapes(1, tried.shapes, 1e300);
+      for (std::size_t i = 0; i < trials.size(); ++i) {
+        const std::vector<Effect> other = effects_with(tried.shapes[i]);
+        const double whole = loop::PointFit(geometry_, *table, patches, other).residual_square();
+        EXPECT_NEAR(trials[i].square / whole, 1.0, 1e-9) << tried.id << ' ' << i;
+        EXPECT_NEAR(trials[i].retained,
+                    loop::TrialFit(geometry_, *table, patches, other).as_is(1).retained, 1e-8)
+            << tried.id << ' ' << i;
+      }
+    }
+  }
+}
+
+TEST_F(TrialFitsOfTraces, ADriftThatOnlyTheirZerosKnowTakesNothing) {
+  InspectionOptions options;
+  for (int tooth = 1; tooth <= gear_.teeth; ++tooth) options.teeth.push_back(tooth);
+  options.points = 30;
+  options.index = false;
+  loop::MeasuredData data;
+  data.inspections.push_back(inspection_of(gear_, {off_centre(6.0, 30.0)}, options));
+  const loop::Observations table = *make_observations(geometry_, data, {});
+  const loop::Patches patches = make_patches(geometry_, table);
+  const loop::TrialFit fit(geometry_, table, patches, {of("unnamed_ramp", {4, 0, 1, 0})});
+  const auto trials = fit.with_shapes(0, {{4, 0, 0, 0}, {9, 0, 0, 1}, {9, 0, 1, 0}}, 1e300);
+  const double nothing = loop::PointFit(geometry_, table, patches, {}).residual_square();
+  for (const std::size_t i : {0U, 1U}) {
+    EXPECT_NEAR(trials[i].square / nothing, 1.0, 1e-12);
+    EXPECT_EQ(trials[i].retained, 0.0);
+  }
+  EXPECT_LT(trials[2].square, nothing);
+  EXPECT_GT(trials[2].retained, 0.1);
 }
 
 TEST_F(TrialFitsOfTraces, FindTheLengthOfTheirWaves) {

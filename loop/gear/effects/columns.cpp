@@ -119,6 +119,20 @@ std::vector<EffectShape> sectors_beside(const FlankGeometry& geometry, const Eff
   return shapes;
 }
 
+void set_columns(EffectFamily& family, EffectFamily::FormTimesTooth columns) {
+  family.evaluate = [columns, count = family.columns](const FlankGeometry& g, const Place& p,
+                                                      const EffectShape& shape, double* c) {
+    const int n = count(shape);
+    std::fill_n(c, n, 0.0);
+    if (p.surface != Surface::kFlank) return;
+    columns.tooth(g, p.tooth, shape, c);
+    if (std::all_of(c, c + n, [](double factor) { return factor == 0.0; })) return;
+    const double form = columns.form(g, p, shape);
+    for (int k = 0; k < n; ++k) c[k] = c[k] != 0.0 ? c[k] * form : 0.0;
+  };
+  family.form_times_tooth = std::move(columns);
+}
+
 EffectFamily described(const std::string& id, std::vector<std::string> shape_names) {
   EffectFamily f;
   f.id = id;

@@ -68,6 +68,9 @@ template <class Function>
   return f;
 }
 
+/// Makes the family's columns of these, on flanks only.
+void set_columns(EffectFamily& family, EffectFamily::FormTimesTooth columns);
+
 /// One shape a number, from ... to.
 [[nodiscard]] std::vector<EffectShape> whole_numbers(int from, int to);
 /// Heights below the face width, in equal steps or equal ratios.

@@ -38,17 +38,28 @@ double form_of_tooth(const FlankGeometry& g, const Place& p, const EffectShape& 
          course_of_degree(shape[k + 1], g.face_coordinate(p.z_mm));
 }
 
+/// The same as the form of a family.
+auto form_at(std::size_t k) {
+  return [k](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
+    return form_of_tooth(g, p, shape, k);
+  };
+}
+/// Equal on both flanks, or opposite ones where the k-th shape value says so.
+auto place_or_height(std::size_t k) {
+  return [k](const FlankGeometry&, const Place& p, const EffectShape& shape) {
+    return shape[k] != 0.0 ? static_cast<double>(p.side) : 1.0;
+  };
+}
+
 }  // namespace
 
 EffectFamily unnamed_sector() {
   EffectFamily f = described("unnamed_sector", {"first_tooth", "teeth", "profile_degree",
                                                 "face_degree", "opposite_flanks"});
-  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
-    c[0] = 0.0;
-    if (p.surface != Surface::kFlank) return;
-    const double in = in_sector(g, p.tooth, shape);
-    c[0] = in != 0.0 ? in * form_of_tooth(g, p, shape, 2) : 0.0;
-  };
+  set_columns(f, {[](const FlankGeometry& g, int tooth, const EffectShape& shape, double* factor) {
+                    factor[0] = in_sector(g, tooth, shape);
+                  },
+                  form_at(2)});
   f.term_keys = {{"first_tooth"}, {"teeth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     return sectors_beside(g, shape, 2);
@@ -64,11 +75,10 @@ EffectFamily unnamed_sector() {
 EffectFamily unnamed_soft_sector() {
   EffectFamily f =
       described("unnamed_soft_sector", {"middle_tooth", "teeth", "edge_teeth", "opposite_flanks"});
-  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
-    c[0] = p.surface == Surface::kFlank ? (shape[3] != 0.0 ? p.side : 1) *
-                                              in_soft_run(g, p.tooth, shape[0], shape[1], shape[2])
-                                        : 0.0;
-  };
+  set_columns(f, {[](const FlankGeometry& g, int tooth, const EffectShape& shape, double* factor) {
+                    factor[0] = in_soft_run(g, tooth, shape[0], shape[1], shape[2]);
+                  },
+                  place_or_height(3)});
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     std::vector<EffectShape> shapes;
     const auto add = [&](std::size_t k, double value) {
@@ -102,10 +112,10 @@ EffectFamily unnamed_tooth_form() {
   EffectFamily f = described("unnamed_tooth_form",
                              {"tooth", "profile_degree", "face_degree", "opposite_flanks"});
   f.is_of_one_tooth = true;
-  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
-    const bool is_it = p.surface == Surface::kFlank && p.tooth == static_cast<int>(shape[0]);
-    c[0] = is_it ? form_of_tooth(g, p, shape, 1) : 0.0;
-  };
+  set_columns(f, {[](const FlankGeometry&, int tooth, const EffectShape& shape, double* factor) {
+                    factor[0] = tooth == static_cast<int>(shape[0]) ? 1.0 : 0.0;
+                  },
+                  form_at(1)});
   f.term_keys = {{"tooth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
   f.words = [](const ToldForm& told) {
     return printed("tooth %.0f alone ", told.shape[0]) + CourseOfTeeth::at(told, 1).does();
@@ -116,11 +126,10 @@ EffectFamily unnamed_tooth_form() {
 EffectFamily unnamed_alternation() {
   EffectFamily f =
       described("unnamed_alternation", {"profile_degree", "face_degree", "opposite_flanks"});
-  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
-    c[0] = 0.0;
-    if (p.surface != Surface::kFlank) return;
-    c[0] = (p.tooth % 2 == 1 ? 1.0 : -1.0) * form_of_tooth(g, p, shape, 0);
-  };
+  set_columns(f, {[](const FlankGeometry&, int tooth, const EffectShape&, double* factor) {
+                    factor[0] = tooth % 2 == 1 ? 1.0 : -1.0;
+                  },
+                  form_at(0)});
   f.term_keys = {{"profile_degree"}, {"face_degree"}, kFlanks};
   f.words = [](const ToldForm& told) {
     return "every other tooth differs: one of odd number " + CourseOfTeeth::at(told, 0).does();
@@ -146,12 +155,11 @@ EffectFamily unnamed_ramp() {
   EffectFamily f = described("unnamed_ramp",
                              {"first_tooth", "profile_degree", "face_degree", "opposite_flanks"});
   f.is_drift = true;
-  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
-    c[0] = 0.0;
-    if (p.surface != Surface::kFlank) return;
-    const double along = static_cast<double>(teeth_since(g, p.tooth, shape[0])) / g.teeth();
-    c[0] = (along - 0.5) * form_of_tooth(g, p, shape, 1);
-  };
+  set_columns(f, {[](const FlankGeometry& g, int tooth, const EffectShape& shape, double* factor) {
+                    factor[0] =
+                        static_cast<double>(teeth_since(g, tooth, shape[0])) / g.teeth() - 0.5;
+                  },
+                  form_at(1)});
   f.nearby = begun_beside;
   f.term_keys = {{"first_tooth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
   f.words = [](const ToldForm& told) {
@@ -187,11 +195,10 @@ EffectFamily unnamed_levelling() {
       described("unnamed_levelling", {"first_tooth", "profile_degree", "face_degree",
                                       "opposite_flanks", "grows", "within_teeth", "zero_at"});
   f.is_drift = true;
-  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
-    c[0] = p.surface == Surface::kFlank
-               ? uneven_drift(g, p.tooth, shape) * form_of_tooth(g, p, shape, 1)
-               : 0.0;
-  };
+  set_columns(f, {[](const FlankGeometry& g, int tooth, const EffectShape& shape, double* factor) {
+                    factor[0] = uneven_drift(g, tooth, shape);
+                  },
+                  form_at(1)});
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     std::vector<EffectShape> shapes = begun_beside(g, shape);
     for (const double times : {0.7, 0.87, 1.15, 1.43}) {
@@ -248,15 +255,13 @@ EffectFamily unnamed_broken_wave() {
       described("unnamed_broken_wave", {"periods_per_turn", "first_tooth", "opposite_flanks"});
   f.is_drift = true;
   f.columns = [](const EffectShape&) { return 2; };
-  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
-    c[0] = c[1] = 0.0;
-    if (p.surface != Surface::kFlank) return;
-    const double since = teeth_since(g, p.tooth, shape[1]);
-    const double angle = kTwoPi * shape[0] * since / g.teeth();
-    const double size = shape[2] != 0.0 ? p.side : 1;
-    c[0] = size * std::cos(angle);
-    c[1] = size * std::sin(angle);
-  };
+  set_columns(f, {[](const FlankGeometry& g, int tooth, const EffectShape& shape, double* factors) {
+                    const double since = teeth_since(g, tooth, shape[1]);
+                    const double angle = kTwoPi * shape[0] * since / g.teeth();
+                    factors[0] = std::cos(angle);
+                    factors[1] = std::sin(angle);
+                  },
+                  place_or_height(2)});
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     std::vector<EffectShape> shapes;
     for (const double longer : {-0.1, -0.03, 0.0, 0.03, 0.1})
@@ -285,13 +290,12 @@ EffectFamily unnamed_saw() {
   EffectFamily f = described("unnamed_saw", {"restarts_every", "first_tooth", "profile_degree",
                                              "face_degree", "opposite_flanks"});
   f.is_drift = true;
-  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
-    c[0] = 0.0;
-    if (p.surface != Surface::kFlank) return;
-    const int every = static_cast<int>(shape[0]);
-    const int since = teeth_since(g, p.tooth, shape[1]) % every;
-    c[0] = (static_cast<double>(since) / every - 0.5) * form_of_tooth(g, p, shape, 2);
-  };
+  set_columns(f, {[](const FlankGeometry& g, int tooth, const EffectShape& shape, double* factor) {
+                    const int every = static_cast<int>(shape[0]);
+                    const int since = teeth_since(g, tooth, shape[1]) % every;
+                    factor[0] = static_cast<double>(since) / every - 0.5;
+                  },
+                  form_at(2)});
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     std::vector<EffectShape> shapes;
     for (const double longer : {-1.0, 0.0, 1.0})
@@ -321,11 +325,11 @@ EffectFamily unnamed_comb() {
   EffectFamily f = described(
       "unnamed_comb", {"every", "first_tooth", "profile_degree", "face_degree", "opposite_flanks"});
   f.is_followed_nearly = true;
-  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
-    const int every = static_cast<int>(shape[0]), first = static_cast<int>(shape[1]);
-    const bool stands_out = p.surface == Surface::kFlank && (p.tooth - first) % every == 0;
-    c[0] = stands_out ? form_of_tooth(g, p, shape, 2) : 0.0;
-  };
+  set_columns(f, {[](const FlankGeometry&, int tooth, const EffectShape& shape, double* factor) {
+                    const int every = static_cast<int>(shape[0]);
+                    factor[0] = (tooth - static_cast<int>(shape[1])) % every == 0 ? 1.0 : 0.0;
+                  },
+                  form_at(2)});
   f.term_keys = {{"every"}, {"first_tooth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
   f.words = [](const ToldForm& told) {
     return printed("one tooth in %.0f, from tooth %.0f on, ", told.shape[0], told.shape[1]) +
@@ -354,16 +358,16 @@ EffectFamily unnamed_stairs() {
   EffectFamily f = described("unnamed_stairs",
                              {"first_tooth", "second_tooth", "third_tooth", "opposite_flanks"});
   f.columns = [](const EffectShape&) { return 2; };
-  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
-    c[0] = c[1] = 0.0;
-    if (p.surface != Surface::kFlank) return;
-    const int since = teeth_since(g, p.tooth, shape[0]);
-    const double size = shape[3] != 0.0 ? p.side : 1;
-    if (since >= teeth_since(g, static_cast<int>(shape[2]), shape[0]))
-      c[1] = size;
-    else if (since >= teeth_since(g, static_cast<int>(shape[1]), shape[0]))
-      c[0] = size;
-  };
+  set_columns(f, {[](const FlankGeometry& g, int tooth, const EffectShape& shape, double* factors) {
+                    const int since = teeth_since(g, tooth, shape[0]);
+                    const auto is_after = [&](double first) {
+                      return since >= teeth_since(g, static_cast<int>(first), shape[0]);
+                    };
+                    const bool third = is_after(shape[2]), second = !third && is_after(shape[1]);
+                    factors[0] = second ? 1.0 : 0.0;
+                    factors[1] = third ? 1.0 : 0.0;
+                  },
+                  place_or_height(3)});
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     constexpr int kFewest = 2;
     std::vector<EffectShape> shapes;
@@ -406,14 +410,13 @@ EffectFamily unnamed_drift_of_some() {
   EffectFamily f = described("unnamed_drift_of_some", {"first_tooth", "teeth", "profile_degree",
                                                        "face_degree", "opposite_flanks", "falls"});
   f.is_drift = true;
-  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
-    c[0] = 0.0;
-    if (p.surface != Surface::kFlank) return;
-    const double since = teeth_since(g, p.tooth, shape[0]);
-    if (since >= shape[1]) return;
-    c[0] = (shape[5] != 0.0 ? shape[1] - since : since + 1.0) / shape[1] *
-           form_of_tooth(g, p, shape, 2);
-  };
+  set_columns(f, {[](const FlankGeometry& g, int tooth, const EffectShape& shape, double* factor) {
+                    const double since = teeth_since(g, tooth, shape[0]);
+                    factor[0] = since >= shape[1] ? 0.0
+                                : shape[5] != 0.0 ? (shape[1] - since) / shape[1]
+                                                  : (since + 1.0) / shape[1];
+                  },
+                  form_at(2)});
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     constexpr double kFewest = 3.0;
     std::vector<EffectShape> shapes;
@@ -450,16 +453,14 @@ EffectFamily unnamed_wave_of_some() {
   EffectFamily f = described("unnamed_wave_of_some",
                              {"first_tooth", "teeth", "periods_per_turn", "opposite_flanks"});
   f.columns = [](const EffectShape&) { return 2; };
-  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
-    c[0] = c[1] = 0.0;
-    if (p.surface != Surface::kFlank) return;
-    const double since = teeth_since(g, p.tooth, shape[0]);
-    if (since >= shape[1]) return;
-    const double angle = kTwoPi * shape[2] * since / g.teeth();
-    const double size = shape[3] != 0.0 ? p.side : 1;
-    c[0] = size * std::cos(angle);
-    c[1] = size * std::sin(angle);
-  };
+  set_columns(f, {[](const FlankGeometry& g, int tooth, const EffectShape& shape, double* factors) {
+                    const double since = teeth_since(g, tooth, shape[0]);
+                    const bool on = since < shape[1];
+                    const double angle = kTwoPi * shape[2] * since / g.teeth();
+                    factors[0] = on ? std::cos(angle) : 0.0;
+                    factors[1] = on ? std::sin(angle) : 0.0;
+                  },
+                  place_or_height(3)});
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     std::vector<EffectShape> shapes = sectors_beside(g, shape, 2);
     for (const double longer : {-0.5, -0.2, -0.07, 0.07, 0.2, 0.5}) {

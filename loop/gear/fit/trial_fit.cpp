@@ -96,6 +96,7 @@ void TrialFit::find_alike(FlankCells cells) {
     kind_weight_[static_cast<Eigen::Index>(alike.kind[i])] += rows_[i].root * rows_[i].root;
   first_of_kinds_ = {alike.first, EffectValues::key_of(alike.first)};
   alike_ = std::move(alike);
+  if (has_exact_kinds()) find_places_on_flanks();
   // Where kinds are few, their products less zeros are one matrix.
   constexpr std::size_t kWorthIt = 8;
   const std::size_t kinds = alike_->first.size();
@@ -367,6 +368,13 @@ std::vector<TrialFit::Trial> TrialFit::with_shapes(std::size_t effect,
                                                    double below) const {
   std::vector<Trial> trials(shapes.size());
   const Others others(gram_, first_column_[effect], effects_[effect].columns());
+  if (is_form_times_tooth(effects_[effect])) {
+    for_forms_times_teeth(effects_[effect], shapes,
+                          [&](std::size_t i, const Eigen::MatrixXd& products, Eigen::MatrixXd own) {
+                            trials[i] = others.with(products, std::move(own), below);
+                          });
+    return trials;
+  }
   const auto try_one = [&](std::size_t i) {
     Effect moved = effects_[effect];
     moved.shape = shapes[i];

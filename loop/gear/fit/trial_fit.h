@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -20,7 +22,8 @@ namespace trueflank::loop {
 /// On traces most shapes that are tried are the same on every tooth. Their columns are one value
 /// for each kind of rows that differ by the tooth alone, and their products with what stands follow
 /// from sums of that over these rows. Of a scan that is done where cells are given, for shapes that
-/// are tried alone (rows_of_cells).
+/// are tried alone (rows_of_cells). Shapes that are a form times a factor of the tooth ask for sums
+/// over teeth of that form once, and then for the factors of teeth alone.
 class TrialFit {
  public:
   TrialFit(const FlankGeometry& geometry, const SharedTable& table, const Patches& patches,
@@ -85,6 +88,16 @@ class TrialFit {
   [[nodiscard]] Eigen::MatrixXd full(const Columns& columns) const;
   [[nodiscard]] Eigen::MatrixXd products_with_all(const Columns& columns) const;
   [[nodiscard]] Eigen::MatrixXd own_products(const Columns& columns) const;
+  void find_places_on_flanks();
+  [[nodiscard]] bool is_form_times_tooth(const Effect& effect) const;
+  [[nodiscard]] std::vector<double> form_of(const Effect& effect) const;
+  struct FormOnTeeth;
+  void sum_up(FormOnTeeth& form) const;
+  /// Products of an effect's columns with all columns, and with each other, for each of its shapes,
+  /// on all processors.
+  void for_forms_times_teeth(
+      const Effect& effect, const std::vector<EffectShape>& shapes,
+      const std::function<void(std::size_t, const Eigen::MatrixXd&, Eigen::MatrixXd)>& take) const;
   void find_runs();
   template <class Value>
   void means_of_traces(const Value& value, double* means) const;
@@ -104,6 +117,14 @@ class TrialFit {
   std::vector<Run> runs_;
   RowSet all_rows_, first_of_kinds_;
   std::optional<AlikeRows> alike_;          ///< where rows are alike
+  /// A place of a row on a flank, and which of the kinds' places it is; places of rows that have
+  /// several come after those of all kinds.
+  struct PlaceOnFlank {
+    std::uint32_t row = 0, kind = 0;
+    int tooth = 0;
+  };
+  std::vector<PlaceOnFlank> on_flanks_;         ///< where kinds are exact
+  std::vector<std::uint32_t> places_of_kinds_;  ///< in the table; of a kind on no flank its first
   std::vector<double> trace_weight_;
   Eigen::VectorXd kind_weight_;
   Eigen::MatrixXd kind_products_;  ///< weights less what zeros take; empty: not worth it

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "trueflank/loop/discovery/kept_sums.h"
+#include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/finite_displacement.h"
 #include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/forms_of_runs.h"
@@ -134,6 +135,9 @@ bool settle_poses_of_scans(PartModel& model) {
   return true;
 }
 
+/// What finite displacements may change of a deviation before all is chosen anew.
+double noticed_um(const PointFit& fit) { return 0.02 * fit.noise_um(); }
+
 /// True where finite displacements changed the deviations by more than the noise can hide, or are
 /// taken back.
 bool linearise(PartModel& model) {
@@ -141,21 +145,39 @@ bool linearise(PartModel& model) {
   if (model.table->points_mm.empty()) return false;
   choose_motions(model);
   const auto fit = fit_of(model, model.effects);
-  const double noticed_um = 0.02 * fit->noise_um();
   // Displacements are smooth: where a sample moves by less than half of that, no point moves by
   // more.
   if (model.table->is_displaced &&
-      change_of_sample_um(model.geometry, *fit, model.table) < 0.5 * noticed_um)
+      change_of_sample_um(model.geometry, *fit, model.table) < 0.5 * noticed_um(*fit))
     return false;
   const double change = linearise_at(model.geometry, *fit, model.table.own());
   forget_fits(model);
-  if (!(change > noticed_um)) return false;
+  if (!(change > noticed_um(*fit))) return false;
   divide_into_patches(model);
   leave_out_across_steps(model);
   return true;
 }
 
 }  // namespace
+
+void move_back_what_is_off_centre(PartModel& model) {
+  constexpr std::size_t kSample = 16384;
+  constexpr double kClearly = 100.0;  // chi-square
+  if (model.table->points_mm.empty() || model.table->is_displaced || !model.options.given.empty())
+    return;
+  const EffectFamily* family = find_family("eccentricity");
+  for (std::size_t c = 0; c < model.candidates.size(); ++c)
+    if (model.candidates[c].family == family && model.banned[c]) return;
+  const std::size_t stride = std::max<std::size_t>(1, model.table->rows.size() / kSample);
+  const PointFit fit(model.geometry, model.table, model.patches, {{family}}, stride);
+  const double gain = fit.residual_square({false}) - fit.residual_square();
+  if (!(static_cast<double>(stride) * gain > kClearly) ||
+      change_of_sample_um(model.geometry, fit, model.table) < noticed_um(fit))
+    return;
+  linearise_at(model.geometry, fit, model.table.own());
+  forget_fits(model);
+  divide_into_patches(model);
+}
 
 void explain(PartModel& model) {
   constexpr int kRounds = 5;

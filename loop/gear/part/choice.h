@@ -5,6 +5,10 @@
 
 namespace trueflank::loop {
 
+/// Moves the points of scans that lie in the datum's frame back by an eccentricity that stands out
+/// before anything is chosen: from where they lie all would be chosen, and then once more from
+/// there.
+void move_back_what_is_off_centre(PartModel& model);
 /// Chooses until neither shapes nor places nor poses move any more, some rounds.
 void explain(PartModel& model);
 /// What is smaller than the rounding of 32-bit mesh files is no finding, however regular it is.

@@ -70,6 +70,7 @@ void explain_part(PartModel& model) {
   const bool scan_for_more =
       !model.options.joined && !model.options.names_only && !is_rounding(model);
   if (scan_for_more) nominate(model);
+  move_back_what_is_off_centre(model);
   explain(model);
   if (scan_for_more) explain_with_whole_forms(model);
   if (scan_for_more && begins_better(model)) return;
