@@ -132,10 +132,10 @@ EffectFamily unnamed_crossed_around() {
   EffectFamily f = described("unnamed_crossed_around", kCourseNames);
   for (const char* name : {"around", "towards_deg", "half_deg"}) f.shape_names.emplace_back(name);
   f.one_flank_too = true;
-  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
-    c[0] = on_a_flank(g, p, shape);
-    if (c[0] != 0.0) c[0] *= AroundCourse::at(shape, kAround).value(g, p.tooth);
-  };
+  set_columns(f, {[](const FlankGeometry& g, int tooth, const EffectShape& shape, double* factor) {
+                    factor[0] = AroundCourse::at(shape, kAround).value(g, tooth);
+                  },
+                  on_a_flank});
   f.needs = needs_of;
   f.faces_a_direction = true;
   f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };

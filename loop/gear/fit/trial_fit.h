@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "trueflank/geometry/linear_equations.h"
@@ -93,6 +94,8 @@ class TrialFit {
   [[nodiscard]] std::vector<double> form_of(const Effect& effect) const;
   struct FormOnTeeth;
   void sum_up(FormOnTeeth& form) const;
+  [[nodiscard]] std::pair<Eigen::MatrixXd, Eigen::MatrixXd> products_of_teeth(
+      const Effect& effect, const FormOnTeeth& form) const;
   /// Products of an effect's columns with all columns, and with each other, for each of its shapes,
   /// on all processors.
   void for_forms_times_teeth(

@@ -100,44 +100,54 @@ void TrialFit::sum_up(FormOnTeeth& form) const {
 void TrialFit::for_forms_times_teeth(
     const Effect& effect, const std::vector<EffectShape>& shapes,
     const std::function<void(std::size_t, const Eigen::MatrixXd&, Eigen::MatrixXd)>& take) const {
-  std::vector<FormOnTeeth> forms;
-  std::vector<std::size_t> form_at(shapes.size());
-  const auto with = [&](std::size_t i) {
-    Effect moved = effect;
-    moved.shape = shapes[i];
-    return moved;
+  struct ShapesOfForm {
+    std::vector<double> values;
+    std::vector<std::size_t> shapes;
   };
+  std::vector<ShapesOfForm> forms;
+  const auto with = [&](std::size_t i) { return Effect{effect.family, effect.flank, shapes[i]}; };
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     std::vector<double> values = form_of(with(i));
-    const auto same = std::find_if(forms.begin(), forms.end(),
-                                   [&](const FormOnTeeth& form) { return form.values == values; });
-    form_at[i] = static_cast<std::size_t>(same - forms.begin());
-    if (same == forms.end()) forms.push_back({std::move(values), {}, {}, {}});
+    const auto same = std::find_if(forms.rbegin(), forms.rend(),
+                                   [&](const ShapesOfForm& form) { return form.values == values; });
+    if (same == forms.rend())
+      forms.push_back({std::move(values), {i}});
+    else
+      same->shapes.push_back(i);
   }
-  for_each_piece(forms.size(), [&](std::size_t f) { sum_up(forms[f]); });
-  for_each_piece(shapes.size(), [&](std::size_t i) {
-    const FormOnTeeth& form = forms[form_at[i]];
-    const Effect moved = with(i);
-    const Eigen::Index count = moved.columns();
-    Eigen::MatrixXd factors = Eigen::MatrixXd::Zero(form.own.rows(), count);
-    double of_tooth[8];
-    for (int tooth = 1; tooth < factors.rows(); ++tooth) {
-      moved.family->form_times_tooth->tooth(geometry_, tooth, moved.shape, of_tooth);
-      for (Eigen::Index k = 0; k < count; ++k) factors(tooth, k) = of_tooth[k];
+  for_each_piece(forms.size(), [&](std::size_t f) {
+    FormOnTeeth form;
+    form.values = std::move(forms[f].values);
+    sum_up(form);
+    for (const std::size_t i : forms[f].shapes) {
+      auto [products, own] = products_of_teeth(with(i), form);
+      take(i, products, std::move(own));
     }
-    Eigen::MatrixXd products = form.with_all.transpose() * factors;
-    Eigen::MatrixXd own = factors.transpose() * (form.own * factors);
-    // What zeros take up but for rounding was not measured.
-    constexpr double kRounding = 1e-12;
-    for (Eigen::Index k = 0; k < count; ++k) {
-      const double whole = factors.col(k).cwiseAbs2().dot(form.whole);
-      if (own(k, k) > kRounding * whole) continue;
-      products.col(k).setZero();
-      own.row(k).setZero();
-      own.col(k).setZero();
-    }
-    take(i, products, std::move(own));
   });
+}
+
+/// With all columns, and with each other.
+std::pair<Eigen::MatrixXd, Eigen::MatrixXd> TrialFit::products_of_teeth(
+    const Effect& effect, const FormOnTeeth& form) const {
+  const Eigen::Index count = effect.columns();
+  Eigen::MatrixXd factors = Eigen::MatrixXd::Zero(form.own.rows(), count);
+  double of_tooth[8];
+  for (int tooth = 1; tooth < factors.rows(); ++tooth) {
+    effect.family->form_times_tooth->tooth(geometry_, tooth, effect.shape, of_tooth);
+    for (Eigen::Index k = 0; k < count; ++k) factors(tooth, k) = of_tooth[k];
+  }
+  Eigen::MatrixXd products = form.with_all.transpose() * factors;
+  Eigen::MatrixXd own = factors.transpose() * (form.own * factors);
+  // What zeros take up but for rounding was not measured.
+  constexpr double kRounding = 1e-12;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const double whole = factors.col(k).cwiseAbs2().dot(form.whole);
+    if (own(k, k) > kRounding * whole) continue;
+    products.col(k).setZero();
+    own.row(k).setZero();
+    own.col(k).setZero();
+  }
+  return {std::move(products), std::move(own)};
 }
 
 }  // namespace trueflank::loop

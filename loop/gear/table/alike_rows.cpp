@@ -3,32 +3,43 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <cstddef>
 #include <tuple>
 
 namespace trueflank::loop {
 
 AlikeRows alike_rows(const Observations& table, const std::vector<std::uint32_t>& rows) {
-  const auto is_one_flank = [&](const Observation& row) {
-    return row.places == 1 && table.place(row).surface == Surface::kFlank;
+  /// What tells a row from others, and where it stands; by the first it is sorted, then by that.
+  struct Sorted {
+    bool is_one_flank = false;
+    std::int8_t side = 0;
+    double roll_mm = 0.0, z_mm = 0.0, weight = 0.0;
+    std::uint32_t at = 0;
+    [[nodiscard]] bool is_alike(const Sorted& other) const {
+      return is_one_flank && other.is_one_flank && side == other.side && roll_mm == other.roll_mm &&
+             z_mm == other.z_mm && weight == other.weight;
+    }
+    auto operator<=>(const Sorted&) const = default;
   };
-  using Key = std::tuple<bool, int, double, double, double>;
-  const auto key = [&](const Observation& row) {
+  std::vector<Sorted> sorted(rows.size());
+  for (std::uint32_t i = 0; i < rows.size(); ++i) {
+    const Observation& row = table.rows[rows[i]];
     const Place& place = table.place(row);
-    return Key{is_one_flank(row), place.side, place.roll_mm, place.z_mm, row.weight};
-  };
-  std::vector<std::uint32_t> order(rows.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return key(table.rows[rows[a]]) < key(table.rows[rows[b]]);
-  });
+    sorted[i] = {row.places == 1 && place.surface == Surface::kFlank,
+                 place.side,
+                 place.roll_mm,
+                 place.z_mm,
+                 row.weight,
+                 i};
+  }
+  std::sort(sorted.begin(), sorted.end(),
+            [](const Sorted& a, const Sorted& b) { return std::is_lt(a <=> b); });
   AlikeRows alike;
   alike.kind.resize(rows.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const Observation& row = table.rows[rows[order[i]]];
-    if (i == 0 || !is_one_flank(row) || key(row) != key(table.rows[rows[order[i - 1]]]))
-      alike.first.push_back(rows[order[i]]);
-    alike.kind[order[i]] = static_cast<std::uint32_t>(alike.first.size() - 1);
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    if (i == 0 || !sorted[i].is_alike(sorted[i - 1])) alike.first.push_back(rows[sorted[i].at]);
+    alike.kind[sorted[i].at] = static_cast<std::uint32_t>(alike.first.size() - 1);
   }
   return alike;
 }
