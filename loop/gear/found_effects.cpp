@@ -298,19 +298,16 @@ class Describer {
     };
     // Effects that are not described here (of several parts) stay in the model.
     std::vector<bool> with(count, true);
-    for (const auto& members : members_)
+    std::vector<double> squares;
+    for (const auto& members : members_) {
       for (const int e : members) with[e] = false;
-    const double before = square(std::vector<bool>(count, false)), without = square(with);
+      const double size = sources_.fit.size_beside_pose_um(members);
+      squares.push_back(size * size);
+    }
+    const double before = square(std::vector<bool>(count, false));
     if (!(before > 0.0)) return;
-    const auto explained = [&](const std::vector<bool>& players) {
-      std::vector<bool> these = with;
-      for (std::size_t i = 0; i < players.size(); ++i)
-        for (const int e : members_[i]) these[e] = players[i];
-      return (without - square(these)) / before;
-    };
-    const auto shares = shapley_shares(static_cast<int>(found_.size()), explained);
-    const double own = explained(std::vector<bool>(found_.size(), true));
-    share_out(found_, shares, std::isnan(sources_.explained) ? own : sources_.explained);
+    const double own = (square(with) - square(std::vector<bool>(count, true))) / before;
+    share_out(found_, squares, std::isnan(sources_.explained) ? own : sources_.explained);
   }
 
   const EffectSources& sources_;
