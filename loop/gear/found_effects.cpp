@@ -65,6 +65,7 @@ class Describer {
     for (std::size_t i = 0; i < found_.size(); ++i) add_figures(found_[i], members_[i]);
     say_what_is_alike();
     say_what_is_one_form();
+    say_which_flank_is_open();
     share_what_is_explained();
     return std::move(found_);
   }
@@ -286,6 +287,24 @@ class Describer {
               "the right ones: ",
               std::abs(in_all[0]), std::abs(in_all[1])) +
           words_for(sources_.geometry, form, {&sign, 1});
+    }
+  }
+
+  /// A scanned part may be turned about its axis: what all flanks have alike is perhaps twice as
+  /// much on those of one side.
+  void say_which_flank_is_open() {
+    if (sources_.table == nullptr || !may_be_turned(*sources_.table)) return;
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+      if (members_[i].size() != 1) continue;
+      const int e = members_[i].front();
+      const double height = std::abs(height_of_flanks_um(sources_.geometry, sources_.fit, e));
+      if (!(height > 0.0)) continue;
+      const bool both = sources_.fit.effects()[e].flank == FlankChoice::kBoth;
+      found_[i].sentence +=
+          (both ? printed("; or flanks of one side alone do by %.3g um", 2.0 * height)
+                : printed("; or both flanks do by %.3g um", 0.5 * height)) +
+          ": a scan does not show how the part is turned about its axis";
+      found_[i].sure = "that it is there, " + found_[i].sure + "; on which flanks is open";
     }
   }
 

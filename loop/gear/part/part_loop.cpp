@@ -7,6 +7,7 @@
 #include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/choice.h"
 #include "trueflank/loop/gear/part/forms_around.h"
+#include "trueflank/loop/gear/part/one_flank.h"
 #include "trueflank/loop/gear/part/other_starts.h"
 #include "trueflank/loop/gear/part/parts_of_forms.h"
 #include "trueflank/loop/gear/part/records.h"
@@ -97,6 +98,7 @@ void explain_part(PartModel& model) {
   prefer_one_name_to_two(model);
   take_other_start(model);
   take_form_around(model);
+  tell_what_one_flank_has(model);
   name_what_is_settled(model);
   drop_names_that_may_be_nothing(model);
   model.remainder = remainder_of(model, model.effects, RemainderOf::kAll);
