@@ -102,6 +102,8 @@ void explain_part(PartModel& model) {
   name_what_is_settled(model);
   drop_names_that_may_be_nothing(model);
   model.remainder = remainder_of(model, model.effects, RemainderOf::kAll);
+  while (structure_is_left(model) && name_what_is_left(model))
+    model.remainder = remainder_of(model, model.effects, RemainderOf::kAll);
   if (!structure_is_left(model)) return;
   if (model.remainder.empty() && model.effects != model.left_beside) ask_what_is_left(model);
   if (!structure_is_left(model)) return;
