@@ -12,7 +12,6 @@
 #include "trueflank/loop/gear/part/flank_fields.h"
 #include "trueflank/loop/gear/part/names_beside_forms.h"
 #include "trueflank/loop/gear/part/part_model.h"
-#include "trueflank/loop/gear/part/parts_of_forms.h"
 #include "trueflank/loop/gear/part/runs_along.h"
 #include "trueflank/loop/gear/possible_effects.h"
 #include "trueflank/loop/gear/random_error.h"
@@ -104,21 +103,13 @@ bool is_beyond_doubt(const PartModel& model, const PointFit& fit, std::size_t e)
   return left < kLeft * taken;
 }
 
-/// True where tips or sizes tell the name as the flanks do, whatever these have along the profile.
-bool is_shown_off_the_flanks(const PartModel& model, std::size_t e) {
-  const EffectFamily& family = *model.effects[e].family;
-  return (family.moves_circles || family.moves_whole_part) &&
-         is_shown_beside(model, e, {{0.0, 0.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}});
-}
-
 /// A name of all teeth that stands by itself beside the forms of an answer that leaves little.
 bool is_settled(const PartModel& model, const PointFit& fit, std::size_t e) {
   const Effect& name = fit.effects()[e];
   const Runs runs = runs_of(model.geometry, name, Flanks::kOfEither);
   return is_name_of_all_teeth(name) && name.shape.size() <= 1 && runs != Runs::kOverBoth &&
          runs != Runs::kOtherwise && is_possible(model.geometry, fit, static_cast<int>(e)) &&
-         (stands_among_few_forms(model.geometry, fit, e, !model.table->points_mm.empty()) ||
-          (fit.effects() == model.effects && is_shown_off_the_flanks(model, e))) &&
+         stands_among_few_forms(model.geometry, fit, e, !model.table->points_mm.empty()) &&
          is_beyond_doubt(model, fit, e);
 }
 
