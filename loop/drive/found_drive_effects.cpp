@@ -287,22 +287,17 @@ class Describer {
 
   /// Every effect's share of what all explain together.
   void share_what_is_explained() {
-    const auto square = [&](const std::vector<bool>& left_out) {
-      return rms_of(s_.context, s_.value - s_.all.columns() * s_.all.without(left_out), false,
-                    false);
-    };
-    const std::size_t count = s_.all.effects().size();
     const double before = rms_of(s_.context, s_.value, false, false);
     if (!(before > 0.0)) return;
-    const auto explained = [&](const std::vector<bool>& players) {
-      std::vector<bool> left_out(count, true);
-      for (std::size_t i = 0; i < players.size(); ++i)
-        for (const int e : members_[i]) left_out[e] = !players[i];
-      const double left = square(left_out) / before;
-      return 1.0 - left * left;
-    };
-    share_out(found_, shapley_shares(static_cast<int>(found_.size()), explained),
-              explained(std::vector<bool>(found_.size(), true)));
+    std::vector<double> squares;
+    for (const auto& members : members_) {
+      Eigen::VectorXd moved = Eigen::VectorXd::Zero(s_.value.size());
+      for (const int e : members) moved += s_.all.explained_nm(e);
+      const double size = rms_of(s_.context, moved, false, false);
+      squares.push_back(size * size);
+    }
+    const double left = rms_of(s_.context, s_.value - s_.all.explained_nm(), false, false) / before;
+    share_out(found_, squares, 1.0 - left * left);
   }
 
   const DriveSources& s_;

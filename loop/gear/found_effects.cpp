@@ -65,6 +65,7 @@ class Describer {
     for (std::size_t i = 0; i < found_.size(); ++i) add_figures(found_[i], members_[i]);
     say_what_is_alike();
     say_what_is_one_form();
+    say_which_flank_is_open();
     share_what_is_explained();
     return std::move(found_);
   }
@@ -289,6 +290,24 @@ class Describer {
     }
   }
 
+  /// A scanned part may be turned about its axis: what all flanks have alike is perhaps twice as
+  /// much on those of one side.
+  void say_which_flank_is_open() {
+    if (sources_.table == nullptr || !may_be_turned(*sources_.table)) return;
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+      if (members_[i].size() != 1) continue;
+      const int e = members_[i].front();
+      const double height = std::abs(height_of_flanks_um(sources_.geometry, sources_.fit, e));
+      if (!(height > 0.0)) continue;
+      const bool both = sources_.fit.effects()[e].flank == FlankChoice::kBoth;
+      found_[i].sentence +=
+          (both ? printed("; or flanks of one side alone do by %.3g um", 2.0 * height)
+                : printed("; or both flanks do by %.3g um", 0.5 * height)) +
+          ": a scan does not show how the part is turned about its axis";
+      found_[i].sure = "that it is there, " + found_[i].sure + "; on which flanks is open";
+    }
+  }
+
   /// Every effect's share of what all explain together.
   void share_what_is_explained() {
     const std::size_t count = sources_.fit.effects().size();
@@ -298,19 +317,16 @@ class Describer {
     };
     // Effects that are not described here (of several parts) stay in the model.
     std::vector<bool> with(count, true);
-    for (const auto& members : members_)
+    std::vector<double> squares;
+    for (const auto& members : members_) {
       for (const int e : members) with[e] = false;
-    const double before = square(std::vector<bool>(count, false)), without = square(with);
+      const double size = sources_.fit.size_beside_pose_um(members);
+      squares.push_back(size * size);
+    }
+    const double before = square(std::vector<bool>(count, false));
     if (!(before > 0.0)) return;
-    const auto explained = [&](const std::vector<bool>& players) {
-      std::vector<bool> these = with;
-      for (std::size_t i = 0; i < players.size(); ++i)
-        for (const int e : members_[i]) these[e] = players[i];
-      return (without - square(these)) / before;
-    };
-    const auto shares = shapley_shares(static_cast<int>(found_.size()), explained);
-    const double own = explained(std::vector<bool>(found_.size(), true));
-    share_out(found_, shares, std::isnan(sources_.explained) ? own : sources_.explained);
+    const double own = (square(with) - square(std::vector<bool>(count, true))) / before;
+    share_out(found_, squares, std::isnan(sources_.explained) ? own : sources_.explained);
   }
 
   const EffectSources& sources_;

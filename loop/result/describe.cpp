@@ -2,8 +2,8 @@
 #include "trueflank/loop/result/describe.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <numeric>
 
 #include "trueflank/base/number_text.h"
 
@@ -106,50 +106,12 @@ std::string sure_words(double p_value, const std::vector<std::string>& confounde
   return text + "; the name is open: " + others + " would look the same here";
 }
 
-std::vector<double> shapley_shares(int players,
-                                   const std::function<double(const std::vector<bool>&)>& explained) {
-  constexpr int kMostInAllOrders = 10;  // 1024 sets
-  const auto n = static_cast<std::size_t>(players);
-  std::vector<double> shares(n, 0.0);
-  if (players > kMostInAllOrders) {
-    // First to last and last to first: the mean of two orders.
-    for (const bool forwards : {true, false}) {
-      std::vector<bool> with(n, false);
-      double before = explained(with);
-      for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t player = forwards ? i : n - 1 - i;
-        with[player] = true;
-        const double now = explained(with);
-        shares[player] += 0.5 * (now - before);
-        before = now;
-      }
-    }
-    return shares;
-  }
-  std::vector<double> of_set(std::size_t{1} << n);
-  std::vector<bool> with(n);
-  for (std::size_t set = 0; set < of_set.size(); ++set) {
-    for (std::size_t i = 0; i < n; ++i) with[i] = (set >> i) & 1U;
-    of_set[set] = explained(with);
-  }
-  std::vector<double> factorial(n + 1, 1.0);
-  for (std::size_t i = 1; i <= n; ++i) factorial[i] = factorial[i - 1] * static_cast<double>(i);
-  for (std::size_t set = 0; set < of_set.size(); ++set) {
-    const auto size = static_cast<std::size_t>(std::popcount(set));
-    for (std::size_t i = 0; i < n; ++i)
-      if (!((set >> i) & 1U))
-        shares[i] += factorial[size] * factorial[n - size - 1] / factorial[n] *
-                     (of_set[set | (std::size_t{1} << i)] - of_set[set]);
-  }
-  return shares;
-}
-
-void share_out(std::vector<FoundEffect>& effects, const std::vector<double>& shares, double whole) {
-  double sum = 0.0;
-  for (const double share : shares) sum += std::max(0.0, share);
-  for (std::size_t i = 0; i < effects.size() && i < shares.size(); ++i)
+void share_out(std::vector<FoundEffect>& effects, const std::vector<double>& mean_squares,
+               double whole) {
+  const double sum = std::accumulate(mean_squares.begin(), mean_squares.end(), 0.0);
+  for (std::size_t i = 0; i < effects.size() && i < mean_squares.size(); ++i)
     effects[i].explained_fraction =
-        sum > 0.0 ? std::clamp(whole, 0.0, 1.0) * std::max(0.0, shares[i]) / sum : 0.0;
+        sum > 0.0 ? std::clamp(whole, 0.0, 1.0) * mean_squares[i] / sum : 0.0;
 }
 
 std::string first_action(const std::string& correction) {

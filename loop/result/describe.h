@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,12 +35,12 @@ void sort_by_size(std::vector<Term>& terms);
 /// How sure a finding is, in words that hold a bound of its probability: "sure: chance alone does this less
 /// than once in 100 data sets". `confounded_with`: what the name may be instead.
 [[nodiscard]] std::string sure_words(double p_value, const std::vector<std::string>& confounded_with);
-/// Shares of what several players explain together, by Shapley: the mean over all orders of what each adds.
-/// They add up to what all explain. `explained`: by the players that take part.
-[[nodiscard]] std::vector<double> shapley_shares(int players,
-                                                 const std::function<double(const std::vector<bool>&)>& explained);
-/// Gives effects their shares of `whole`: in proportion to `shares`, negative ones counted as none.
-void share_out(std::vector<FoundEffect>& effects, const std::vector<double>& shares, double whole);
+/// Gives effects their shares of `whole`, what all explain of the variance: in proportion to the
+/// mean squares of what each, as large as it is told, adds to the values. Where effects neither
+/// help nor undo each other these are what each explains; else no other division that adds up
+/// exceeds them by so little.
+void share_out(std::vector<FoundEffect>& effects, const std::vector<double>& mean_squares,
+               double whole);
 /// "; " and the first thing to do of a correction; empty where there is none.
 [[nodiscard]] std::string first_action(const std::string& correction);
 /// Pairs of effects that no data told apart, each measurement that would tell once: "measure the index of both

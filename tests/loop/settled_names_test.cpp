@@ -106,5 +106,45 @@ TEST(SettledNames, AreNoneOfProducts) {
   }
 }
 
+// What is the same on every tooth is no part of what one tooth stands out by.
+TEST(SettledNames, ASingleToothBesideAWornFlank) {
+  const auto made = [](auto&, const FlankSpot& s, auto&) {
+    const double worn =
+        s.side < 0 ? 20.0 * (std::exp(-std::pow((s.u + 0.1) / 0.25, 2)) - 1.0) : 0.0;
+    return worn + (s.tooth == 3 ? 15.0 : 0.0);
+  };
+  const auto result =
+      close(spur(24), scan_of(spur(24), {grown(made)}, scanned(2000, 1.5, 3)), true);
+  expect_size(result, "single_tooth", "amount_um", 15.0, 1.0);
+}
+
+// The drift has a mean, which a scale has too; but the profiles say how much of it is one.
+TEST(SettledNames, AScaleBesideADriftOfAllTeeth) {
+  const MadeGear gear = helical(33, 19.6);
+  const auto drifts = [](const MadeGear& g, const FlankSpot& s, auto&) {
+    return 27.0 * (1.0 - std::exp(-((s.tooth - 5 + g.teeth) % g.teeth) / (0.5 * g.teeth)));
+  };
+  ScanOptions options = scanned(4000, 2.4, 5);
+  options.tips = false;
+  const auto result = close(gear, scan_of(gear, {grown(drifts), scaled(-0.25)}, options), true);
+  expect_size(result, "scale", "percent", -0.25, 0.02);
+}
+
+// A bent axis was all that was told: its opposite steps are one form, and then nothing was asked
+// for the slope that these had taken up.
+TEST(SettledNames, ASlopeOfAllFlanksBesideABentAxis) {
+  MadeGear gear = spur(11);
+  gear.face_mm = 13.9;
+  const auto bent = [](const MadeGear& g, const FlankSpot& s, auto&) {
+    const Vec3 n = normal_at(g, s);
+    return 14.0 * (1.0 - s.v * s.v) * (n[0] * std::cos(0.7) + n[1] * std::sin(0.7));
+  };
+  const auto turned = [](auto&, const FlankSpot& s, auto&) { return 3.7 * s.side * s.v; };
+  const auto result = close(gear, inspection_of(gear, {grown(bent), grown(turned)},
+                                                traced({1, 2, 4, 6, 8, 10}, 0.77, 1)));
+  expect_size(result, "helix_error", "slope_um", 7.4, 0.6);
+  EXPECT_EQ(result.effects.size(), 2U) << list(result);
+}
+
 }  // namespace
 }  // namespace trueflank::test

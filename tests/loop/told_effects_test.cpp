@@ -88,6 +88,22 @@ TEST(ToldEffects, SharesAddUpToWhatTheWholeFitExplains) {
   }
 }
 
+TEST(ToldEffects, ASmallEffectBesideALargeOneOfItsKindHasASmallShare) {
+  // Thin teeth by themselves would take up what the relief takes off on the whole.
+  const auto relief = grown([](auto&, const FlankSpot& s, auto&) {
+    return s.u > 0.3 ? -20.0 * std::pow((s.u - 0.3) / 0.7, 2) : 0.0;
+  });
+  const auto thin = grown([](auto&, const FlankSpot&, auto&) { return -2.0; });
+  const auto result =
+      close(spur(24), scan_of(spur(24), {relief, thin}, scanned(1500, 1.0, 5)), true);
+  ASSERT_EQ(result.effects.size(), 2U) << list(result);
+  const auto& small = result.effects[result.effects[0].id == "tip_relief" ? 1 : 0];
+  // Both take off the same side, so that each explains a little more than it does alone.
+  EXPECT_NEAR(small.explained_fraction, 4.0 / std::pow(result.before.rms, 2), 0.08)
+      << small.sentence;
+  EXPECT_NEAR(sum_of_shares(result), explained(result), 1e-9);
+}
+
 TEST(ToldEffects, SizesCountAndExplainWhatTheyExplain) {
   loop::MeasuredData data;
   loop::SizeData sizes;
@@ -158,21 +174,12 @@ TEST(ToldEffects, AMeasurementThatTellsIsSaidOnce) {
                           "these data cannot");
 }
 
-TEST(Shares, OfAKnownGameAreShapleys) {
-  // Worth 1 alone, 2 alone, 6 together: each gets what it adds in the mean of both orders.
-  const auto worth = [](const std::vector<bool>& with) {
-    return with[0] && with[1] ? 6.0 : with[0] ? 1.0 : with[1] ? 2.0 : 0.0;
-  };
-  const auto shares = loop::shapley_shares(2, worth);
-  EXPECT_DOUBLE_EQ(shares[0], 2.5);
-  EXPECT_DOUBLE_EQ(shares[1], 3.5);
-  // Many players: still what all are worth.
-  const auto many = loop::shapley_shares(14, [](const std::vector<bool>& with) {
-    return std::sqrt(static_cast<double>(std::count(with.begin(), with.end(), true)));
-  });
-  double sum = 0.0;
-  for (const double share : many) sum += share;
-  EXPECT_NEAR(sum, std::sqrt(14.0), 1e-12);
+TEST(Shares, FollowTheSquaresOfWhatEffectsAdd) {
+  std::vector<loop::FoundEffect> effects(3);
+  loop::share_out(effects, {1.0, 4.0, 3.0}, 0.96);
+  EXPECT_NEAR(effects[0].explained_fraction, 0.12, 1e-12);
+  EXPECT_NEAR(effects[1].explained_fraction, 0.48, 1e-12);
+  EXPECT_NEAR(effects[2].explained_fraction, 0.36, 1e-12);
 }
 
 TEST(Sureness, TheWordsHoldABoundOfTheProbability) {

@@ -84,7 +84,8 @@ std::string in_words(const ToldForm& told) {
   std::string text = order == 0.0 ? "the same on every tooth" : times_per_turn(order);
   text += course(static_cast<int>(shape[0]), "profile");
   text += course(static_cast<int>(shape[1]), "face");
-  text += opposite ? ", opposite on the two flanks" : ", equal on both flanks";
+  if (told.flank == FlankChoice::kBoth)
+    text += opposite ? ", opposite on the two flanks" : ", equal on both flanks";
   // (a wave has it where it is largest)
   const int sign = order == 0.0 ? told.sign() : std::isnan(direction_rad) ? 0 : 1;
   const std::string material =

@@ -486,20 +486,32 @@ double PointFit::residual_square(const std::vector<bool>& with_effect) const {
   return square_error(all_, solution(all_, columns_with(with_effect)));
 }
 
-double PointFit::rms_with_um(const Eigen::VectorXd& effect_coefficients) const {
+/// The pose that these values leave: their products with all columns, and what stands for the pose.
+void PointFit::fit_pose(const Eigen::VectorXd& values, Eigen::VectorXd& b) const {
   const int pose = nuisance_.count();
+  if (pose == 0) return;
+  Eigen::MatrixXd normal = all_.topLeftCorner(pose, pose);
+  normal.diagonal() *= 1.0 + 1e-12;
+  normal.diagonal().array() += 1e-30;
+  b.head(pose) = symmetric_solution(normal, values.head(pose));
+}
+
+double PointFit::rms_with_um(const Eigen::VectorXd& effect_coefficients) const {
   Eigen::VectorXd b = Eigen::VectorXd::Zero(columns_);
-  b.tail(columns_ - pose) = effect_coefficients;
-  if (pose > 0) {
-    Eigen::MatrixXd normal = all_.topLeftCorner(pose, pose);
-    normal.diagonal() *= 1.0 + 1e-12;
-    normal.diagonal().array() += 1e-30;
-    const Eigen::VectorXd right = all_.col(columns_).head(pose) -
-                                  all_.block(0, pose, pose, columns_ - pose) * effect_coefficients;
-    b.head(pose) = symmetric_solution(normal, right);
-  }
+  b.tail(columns_ - nuisance_.count()) = effect_coefficients;
+  fit_pose(all_.col(columns_).head(columns_) - all_.topLeftCorner(columns_, columns_) * b, b);
   return observations_ > 0 ? std::sqrt(std::max(0.0, square_error(plain_all_, b)) / observations_)
                            : kNaN;
+}
+
+double PointFit::size_beside_pose_um(const std::vector<int>& effects) const {
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(columns_);
+  for (const int e : effects)
+    b.segment(first_column_[e], effects_[e].columns()) =
+        coefficients_.segment(first_column_[e], effects_[e].columns());
+  fit_pose(-all_.topLeftCorner(columns_, columns_) * b, b);
+  const double square = b.dot(plain_all_.topLeftCorner(columns_, columns_) * b);
+  return observations_ > 0 ? std::sqrt(std::max(0.0, square) / observations_) : 0.0;
 }
 
 double PointFit::column_size(int column) const {

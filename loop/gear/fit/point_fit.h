@@ -55,6 +55,8 @@ class PointFit {
   [[nodiscard]] double column_size(int column) const;
   /// Root mean square of what an effect adds to the values [um].
   [[nodiscard]] double effect_size_um(int effect) const;
+  /// The same of several together, less what the pose takes up of it.
+  [[nodiscard]] double size_beside_pose_um(const std::vector<int>& effects) const;
 
   /// Coefficients of the fit to all data, effects' columns in order after the nuisance.
   [[nodiscard]] const Eigen::VectorXd& coefficients() const { return coefficients_; }
@@ -105,6 +107,7 @@ class PointFit {
   [[nodiscard]] Eigen::VectorXd solution(const Eigen::MatrixXd& gram,
                                          const std::vector<int>& columns) const;
   [[nodiscard]] std::vector<int> columns_with(const std::vector<bool>& with_effect) const;
+  void fit_pose(const Eigen::VectorXd& values, Eigen::VectorXd& b) const;
   [[nodiscard]] bool is_hardly_learnt(std::size_t effect) const;
   [[nodiscard]] std::vector<int> learnt(std::vector<int> columns) const;
 

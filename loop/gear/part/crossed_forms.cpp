@@ -11,7 +11,6 @@
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/runs_along.h"
-#include "trueflank/loop/gear/part/sets_to_try.h"
 
 namespace trueflank::loop {
 

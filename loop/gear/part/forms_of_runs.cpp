@@ -11,9 +11,9 @@
 
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/local/forms_on_teeth.h"
+#include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/runs_along.h"
-#include "trueflank/loop/gear/part/sets_to_try.h"
 
 namespace trueflank::loop {
 namespace {

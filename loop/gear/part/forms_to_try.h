@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "trueflank/loop/gear/effect.h"
 
-// Forms of one kind, with places and widths to start from, that are tried for several effects.
+// Forms of one kind, with places and widths to start from, that are tried for several effects, and
+// in place of which of them: lists of their numbers.
 namespace trueflank::loop {
 
 /// Forms along the profile (0) or the face (1), to start from: what is flat and leaves that towards
@@ -69,5 +71,12 @@ inline constexpr int kMostOfComb = 8;  ///< one tooth in so many, at most
 
 /// Corners to start from.
 [[nodiscard]] std::vector<Effect> corners(const FlankGeometry& geometry, FlankChoice flank);
+
+/// All of these, and all less each name, and less all names; none that is empty.
+[[nodiscard]] std::vector<std::vector<std::size_t>> with_and_without(
+    const std::vector<std::size_t>& all, const std::vector<std::size_t>& names);
+/// All of these where they are more than two, every two, and each by itself.
+[[nodiscard]] std::vector<std::vector<std::size_t>> all_pairs_and_each(
+    const std::vector<std::size_t>& all);
 
 }  // namespace trueflank::loop

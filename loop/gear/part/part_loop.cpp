@@ -7,6 +7,7 @@
 #include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/choice.h"
 #include "trueflank/loop/gear/part/forms_around.h"
+#include "trueflank/loop/gear/part/one_flank.h"
 #include "trueflank/loop/gear/part/other_starts.h"
 #include "trueflank/loop/gear/part/parts_of_forms.h"
 #include "trueflank/loop/gear/part/records.h"
@@ -98,9 +99,12 @@ void explain_part(PartModel& model) {
   prefer_one_name_to_two(model);
   take_other_start(model);
   take_form_around(model);
+  tell_what_one_flank_has(model);
   name_what_is_settled(model);
   drop_names_that_may_be_nothing(model);
   model.remainder = remainder_of(model, model.effects, RemainderOf::kAll);
+  while (structure_is_left(model) && name_what_is_left(model))
+    model.remainder = remainder_of(model, model.effects, RemainderOf::kAll);
   if (!structure_is_left(model)) return;
   if (model.remainder.empty() && model.effects != model.left_beside) ask_what_is_left(model);
   if (!structure_is_left(model)) return;

@@ -143,21 +143,25 @@ double comb_um(const PointFit& fit) {
 }
 
 /// A slope or a bow beside slow forms without a name on the same flanks; a single tooth whose size
-/// hangs on a form around the gear.
+/// hangs on a form that differs from tooth to tooth.
 void tell_parts_beside_forms(PartModel& model) {
   constexpr double kShare = 0.3, kHangs = 0.25;
   const auto is_form = [](const Effect& e) { return e.is_term() && e.family->form_word.empty(); };
-  std::vector<Effect> bare;
+  const auto differs = [&](const Effect& e) {
+    return is_form(e) && !(e.family->same_on_every_tooth && e.family->same_on_every_tooth(e.shape));
+  };
+  std::vector<Effect> alike;
   for (const Effect& effect : model.effects)
-    if (!is_form(effect)) bare.push_back(effect);
-  if (bare.size() == model.effects.size() || bare.empty()) return;
-  const auto kept = fit_of(model, model.effects), kept_without = fit_of(model, bare);
+    if (!differs(effect)) alike.push_back(effect);
+  if (alike.empty() || std::none_of(model.effects.begin(), model.effects.end(), is_form)) return;
+  const auto kept = fit_of(model, model.effects), kept_without = fit_of(model, alike);
   const PointFit &fit = *kept, &without = *kept_without;
   const std::array<Eigen::VectorXd, 2> forms = slow_forms(model.geometry, fit);
   int own = 0;
   for (std::size_t e = 0; e < model.effects.size(); ++e) {
-    if (is_form(model.effects[e])) continue;
+    if (differs(model.effects[e])) continue;
     const int at = own++;
+    if (is_form(model.effects[e])) continue;
     const EffectFamily* form = form_instead(model, e);
     if (form == nullptr || is_wave_around(model.effects[e]) || is_level(model.geometry, fit, e) ||
         stands_beside_forms(model, fit, e))
@@ -332,9 +336,10 @@ void tell_level_of_forms(PartModel& model) {
     if (!is_level(model.geometry, fit, e)) continue;
     const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
     const double b0 = without.coefficients()[without.first_column(at)];
-    const bool hangs = std::abs(b - b0) > kHangs * std::max(std::abs(b), std::abs(b0)) &&
-                       !is_shown_beside(model, e, {{0.0, 0.0, 0.0, 0.0}});
-    if (hangs || (drifts && fit.effect_size_um(static_cast<int>(e)) < drift_um) ||
+    const auto is_shown = [&] { return is_shown_beside(model, e, {{0.0, 0.0, 0.0, 0.0}}); };
+    const bool hangs = std::abs(b - b0) > kHangs * std::max(std::abs(b), std::abs(b0));
+    const bool below = drifts && fit.effect_size_um(static_cast<int>(e)) < drift_um;
+    if (((hangs || below) && !is_shown()) ||
         fit.effect_size_um(static_cast<int>(e)) <
             std::max({kOfLobes * sharp_um, kOfWaves * waves_um, kOfComb * comb_um(fit)}))
       effect.family = form;

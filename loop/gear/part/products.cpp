@@ -15,9 +15,9 @@
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/local/likeliest_products.h"
 #include "trueflank/loop/gear/part/crossed_forms.h"
+#include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/runs_along.h"
-#include "trueflank/loop/gear/part/sets_to_try.h"
 #include "trueflank/loop/gear/part/taken_up.h"
 #include "trueflank/loop/gear/part/whole_forms.h"
 

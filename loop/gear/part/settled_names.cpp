@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/gear/part/flank_courses.h"
 #include "trueflank/loop/gear/part/flank_fields.h"
 #include "trueflank/loop/gear/part/names_beside_forms.h"
@@ -50,6 +51,8 @@ bool stands_among_few_forms(const FlankGeometry& geometry, const PointFit& fit, 
   for (std::size_t f = 0; f < fit.effects().size(); ++f) {
     const Effect& form = fit.effects()[f];
     if (f == e || !form.is_term()) continue;
+    // All other teeth of a scan show the name without what one of them has.
+    if (shows_heights && form.family->is_of_one_tooth) continue;
     // A bow without a name beside a slope: one curve may be both.
     if (form.family == find_family("unnamed") && form.order() == 0.0 &&
         form.shape[0] + form.shape[1] > 1.0 && runs_of(geometry, form, Flanks::kOfEither) == runs)
@@ -196,7 +199,11 @@ bool tell_as_names(PartModel& model, int face) {
                                     with.end());
     const int spared = values_of(own, true) - values_of(names, true);
     const double cost = fit_of(model, with)->residual_square() - kValue * spared;
-    if (spared < 0 || cost > least - kBetter || cost > now - (spared == 0 ? kClearly : 0.0)) return;
+    // One form that runs as one name does is that name.
+    const bool same = own.size() == 1 && names.size() == 1 &&
+                      run_alike(model.geometry, own.front(), names.front());
+    const double most = same ? now + kValue : now - (spared == 0 ? kClearly : 0.0);
+    if (spared < 0 || cost > least - kBetter || cost > most) return;
     const auto fit = fit_of(model, with);
     for (std::size_t e = rest.size(); e < with.size(); ++e) {
       // A hollow bow beside a slope is what swells towards an end.
@@ -255,6 +262,36 @@ void name_what_is_settled(PartModel& model) {
     }
   }
   std::copy_n(model.effects.begin(), model.options.given.size(), model.options.given.begin());
+}
+
+bool name_what_is_left(PartModel& model) {
+  constexpr double kBeyondDoubt = 36.0;  // chi-square
+  const auto held_out_um = [&](const std::vector<Effect>& effects) {
+    return fit_of(model, effects)->errors(std::vector<bool>(effects.size(), true)).held_out_rms_um;
+  };
+  const double now = fit_of(model, model.effects)->residual_square();
+  std::vector<Effect> best;
+  double least = now - kBeyondDoubt;
+  for (std::size_t c = 0; c < model.candidates.size(); ++c) {
+    const Effect& name = model.candidates[c];
+    if (model.unseen[c] || !is_name_of_all_teeth(name) || !name.shape.empty() ||
+        std::find(model.effects.begin(), model.effects.end(), name) != model.effects.end())
+      continue;
+    std::vector<Effect> with = model.effects;
+    with.push_back(name);
+    const auto fit = fit_of(model, with);
+    if (fit->residual_square() > least ||
+        fit->retained(fit->first_column(static_cast<int>(with.size()) - 1)) < kToldApart)
+      continue;
+    least = fit->residual_square();
+    best = std::move(with);
+  }
+  if (best.empty() || !is_settled(model, *fit_of(model, best), best.size() - 1) ||
+      held_out_um(best) > held_out_um(model.effects))
+    return false;
+  put_in_place_of(model, {}, best);
+  model.discovery.chosen.back().p_value = std::exp(-minus_log_chi_square_tail(now - least, 1));
+  return true;
 }
 
 }  // namespace trueflank::loop

@@ -8,5 +8,8 @@ namespace trueflank::loop {
 /// Forms change while an answer is found, and each rule that takes a name away knows those of its
 /// time. In the end what says the same as a name gets it where it is settled.
 void name_what_is_settled(PartModel& model);
+/// Where structure is left in the end: a name of all teeth that takes it out, settled as well.
+/// True where one does.
+[[nodiscard]] bool name_what_is_left(PartModel& model);
 
 }  // namespace trueflank::loop

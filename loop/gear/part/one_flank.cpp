@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One flank that is off by itself, told as both.
+#include "trueflank/loop/gear/part/one_flank.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "trueflank/loop/gear/part/forms_to_try.h"
+#include "trueflank/loop/gear/part/part_model.h"
+#include "trueflank/loop/gear/part/runs_along.h"
+
+namespace trueflank::loop {
+namespace {
+
+/// Puts a form in place of some where all fits as well with it, but for what each value less may
+/// take. True where it stands.
+bool stands_in_place_of(PartModel& model, const std::vector<std::size_t>& these,
+                        const Effect& form) {
+  constexpr double kNothing = 4.0, kValue = 6.0;  // chi-square
+  std::vector<Effect> with = model.effects, gone;
+  for (std::size_t k = these.size(); k-- > 0;) {
+    gone.push_back(with[these[k]]);
+    with.erase(with.begin() + static_cast<std::ptrdiff_t>(these[k]));
+  }
+  with.push_back(form);
+  const int spared = std::max(0, values_of(gone, false) - form.columns());
+  if (fit_of(model, with)->residual_square() >
+      fit_of(model, model.effects)->residual_square() + kNothing + kValue * spared)
+    return false;
+  put_in_place_of(model, these, with);
+  return true;
+}
+
+/// A form of both flanks, and the same opposite on them.
+bool tell_pair_of_one_flank(PartModel& model) {
+  for (std::size_t a = first_told_here(model); a < model.effects.size(); ++a)
+    for (std::size_t b = first_told_here(model); b < model.effects.size(); ++b) {
+      const Effect &equal = model.effects[a], &opposite = model.effects[b];
+      const auto& names = equal.family->shape_names;
+      if (equal.family != opposite.family || equal.family->named || names.empty() ||
+          names.back() != "opposite_flanks" || equal.shape.size() != names.size() ||
+          equal.flank != FlankChoice::kBoth || opposite.flank != FlankChoice::kBoth ||
+          equal.shape.back() != 0.0 || opposite.shape.back() == 0.0 ||
+          !std::equal(equal.shape.begin(), equal.shape.end() - 1, opposite.shape.begin()))
+        continue;
+      Effect form = equal;
+      for (const FlankChoice flank : {FlankChoice::kLeft, FlankChoice::kRight}) {
+        form.flank = flank;
+        if (stands_in_place_of(model, {std::min(a, b), std::max(a, b)}, form)) return true;
+      }
+    }
+  return false;
+}
+
+bool is_level_of_both(const PartModel& model, std::size_t e) {
+  const Effect& effect = model.effects[e];
+  return e >= first_told_here(model) && effect.columns() == 1 &&
+         effect.flank == FlankChoice::kBoth && !effect.family->local &&
+         runs_of(model.geometry, effect) == Runs::kNowhere;
+}
+
+/// Waves that come again with every so many teeth, with a level or none, are perhaps a comb.
+bool tell_comb_of_one_flank(PartModel& model) {
+  std::vector<std::size_t> levels;
+  for (std::size_t e = 0; e < model.effects.size(); ++e)
+    if (is_level_of_both(model, e)) levels.push_back(e);
+  const int z = model.geometry.teeth();
+  for (int every = 3; every <= 8; ++every) {
+    std::vector<std::size_t> waves;
+    for (std::size_t e = first_told_here(model); z % every == 0 && e < model.effects.size(); ++e)
+      if (const double order = model.effects[e].order();
+          order > 0.0 && std::fmod(order, z / every) == 0.0 && is_wave_around(model.effects[e]))
+        waves.push_back(e);
+    if (waves.empty()) continue;
+    std::vector<std::size_t> all = waves;
+    all.insert(all.end(), levels.begin(), levels.end());
+    std::sort(all.begin(), all.end());
+    for (const std::vector<std::size_t>& these : {all, waves})
+      for (const FlankChoice flank : {FlankChoice::kLeft, FlankChoice::kRight})
+        for (const Effect& comb : combs_of(every, flank, 0.0))
+          if (stands_in_place_of(model, these, comb)) return true;
+  }
+  return false;
+}
+
+/// What effects add up to on a flank [um], from place to place on all teeth.
+std::vector<double> on_flank_um(const PartModel& model, const PointFit& fit, int side) {
+  constexpr int kOverProfile = 41, kOverFace = 7;
+  const FlankGeometry& geometry = model.geometry;
+  std::vector<std::size_t> own;
+  bool differ = false;
+  for (std::size_t e = 0; e < fit.effects().size(); ++e) {
+    const Effect& effect = fit.effects()[e];
+    if (effect.flank == FlankChoice::kBoth || effect.family->local || effect.order() > 0.0)
+      continue;
+    own.push_back(e);
+    differ = differ || !effect.family->same_on_every_tooth ||
+             !effect.family->same_on_every_tooth(effect.shape);
+  }
+  std::vector<double> values;
+  std::array<double, 8> columns{};
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  for (int tooth = 1; tooth <= (differ ? geometry.teeth() : 1); ++tooth)
+    for (int i = 0; i < kOverProfile; ++i)
+      for (int k = 0; k < kOverFace; ++k) {
+        const Place place =
+            geometry.on_flank(tooth, side, low + (i + 0.5) / kOverProfile * (high - low),
+                              (k + 0.5) / kOverFace * geometry.face_width_mm());
+        double& sum = values.emplace_back(0.0);
+        for (const std::size_t e : own) {
+          const Effect& effect = fit.effects()[e];
+          effect.evaluate(geometry, place, columns.data());
+          for (int c = 0; c < effect.columns(); ++c)
+            sum += columns[static_cast<std::size_t>(c)] *
+                   fit.coefficients()[fit.first_column(static_cast<int>(e)) + c];
+        }
+      }
+  return values;
+}
+
+/// The level of one flank as half of it on both: a turned part.
+bool tell_level_of_one_flank(PartModel& model) {
+  constexpr double kAsDesigned = 0.25;  // of the most that the flank is off
+  std::array<bool, 2> has{};
+  for (const Effect& effect : model.effects)
+    if (effect.flank != FlankChoice::kBoth && !effect.family->local && effect.order() == 0.0)
+      has[effect.flank == FlankChoice::kLeft ? 0 : 1] = true;
+  if (has[0] == has[1]) return false;
+  const FlankChoice flank = has[0] ? FlankChoice::kLeft : FlankChoice::kRight;
+  const int side = flank_side(has[0] ? Flank::kLeft : Flank::kRight, model.geometry.gear().kind);
+  const Effect level{find_family("unnamed"), flank, {0.0, 0.0, 0.0, 0.0}};
+  for (std::size_t e = 0; e < model.effects.size(); ++e) {
+    if (!is_level_of_both(model, e)) continue;
+    std::vector<Effect> with = model.effects;
+    with[e] = level;
+    std::vector<double> off = on_flank_um(model, *fit_of(model, with), side);
+    const auto [low, high] = std::minmax_element(off.begin(), off.end());
+    const double most = std::max(*high, -*low), least = *high > -*low ? *low : -*high;
+    if (std::abs(least) < kAsDesigned * most && stands_in_place_of(model, {e}, level)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void tell_what_one_flank_has(PartModel& model) {
+  while (tell_pair_of_one_flank(model)) {
+  }
+  (void)tell_comb_of_one_flank(model);
+  (void)tell_level_of_one_flank(model);
+}
+
+}  // namespace trueflank::loop

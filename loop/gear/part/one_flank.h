@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "trueflank/loop/gear/part/part_model.h"
+
+namespace trueflank::loop {
+
+/// One flank worn or off by itself, told as both: a form of both flanks and the same opposite on
+/// them; a comb of one flank as waves and a level; and, as a part may be turned about its axis, the
+/// level of one flank as half of it on both. The last where the flank with it has forms of its own
+/// and is somewhere as designed, and the other has none.
+void tell_what_one_flank_has(PartModel& model);
+
+}  // namespace trueflank::loop
