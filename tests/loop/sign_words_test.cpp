@@ -415,8 +415,8 @@ TEST(SignWords, AreSaidOfEveryFormOfOneCoefficient) {
     if (family.named) continue;
     // (a patch is a dish with an edge; the others have two coefficients)
     static const std::set<std::string> kOther{
-        "unnamed_crossed_waves", "unnamed_patch", "unnamed_waviness", "unnamed_marks",
-        "unnamed_waves_from", "unnamed_waves_dying", "unnamed_waves_growing",
+        "unnamed_crossed_order", "unnamed_crossed_waves", "unnamed_patch", "unnamed_waviness",
+        "unnamed_marks", "unnamed_waves_from", "unnamed_waves_dying", "unnamed_waves_growing",
         "unnamed_walking_waves", "unnamed_waves_changing", "unnamed_bow", "unnamed_axis_kink",
         "unnamed_field", "unnamed_facing", "unnamed_moved_sector", "unnamed_drift_aside",
         "unnamed_broken_wave", "unnamed_stairs", "unnamed_wave_of_some",
@@ -444,6 +444,10 @@ TEST(SignWords, SayWhereAWaveIsLargest) {
               HasSubstr("the flanks stand out, most at 45 deg first"));
   EXPECT_THAT(told(g, effect_of("unnamed", {0, 1, 1, 1}), {-5.0, 0.0}),
               HasSubstr("the upper end stands counter-clockwise, most at 180 deg"));
+  EXPECT_THAT(told(g, effect_of("unnamed_crossed_order", {0, 0, 0, 0, 5, 2, -1, 0, 1, 3}), {0, 4}),
+              HasSubstr("3 times per turn, dying away from the lower end within 2 mm, opposite on "
+                        "the two flanks: there the teeth stand counter-clockwise, most at 30 deg "
+                        "first"));
   EXPECT_THAT(told(g, effect_of("unnamed_moved_sector", {5, 7}), {0.0, -4.0}),
               HasSubstr("7 teeth from tooth 5 on stand aside as one body, towards 270 deg"));
   EXPECT_THAT(

@@ -65,6 +65,7 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_one_side(),
         unnamed_crossed(),
         unnamed_crossed_around(),
+        unnamed_crossed_order(),
         unnamed_crossed_waves(),
         unnamed_swellings_at_end(),
         unnamed_reversal(),

@@ -452,4 +452,9 @@ std::vector<LikelyForms> LikeliestProducts::waves() const {
                                         scan);
 }
 
+std::vector<LikelyForms> LikeliestProducts::of_order(const OrderAsked& asked) const {
+  const auto& [g, scan, teeth, profiles, faces, ways] = *cells_;
+  return product_cells::likeliest_orders(g, teeth, profiles, faces, scan, asked);
+}
+
 }  // namespace trueflank::loop

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -60,6 +61,7 @@ class Products {
   void ask_steps(int face);
   void ask_the_same_on_every_tooth();
   void ask_around_the_gear();
+  void ask_orders();
   void ask_waves();
 
  private:
@@ -78,7 +80,7 @@ class Products {
   [[nodiscard]] Indices pieces_of(const Effect& form, const Indices& set) const;
   [[nodiscard]] bool earns_its_place(const std::vector<Effect>& with) const;
   void ask(const Indices& set, const std::vector<LikelyForms>& forms, double least_gain,
-           const std::vector<Effect>& beside = {});
+           const std::vector<Effect>& beside = {}, bool beside_stays = false);
 
   const PartModel& model_;
   double now_;
@@ -142,7 +144,7 @@ bool Products::earns_its_place(const std::vector<Effect>& with) const {
 
 /// Forms for a set; names that are free beside them do not stay: they are chosen anew.
 void Products::ask(const Indices& set, const std::vector<LikelyForms>& forms, double least_gain,
-                   const std::vector<Effect>& beside) {
+                   const std::vector<Effect>& beside, bool beside_stays) {
   for (const LikelyForms& likely : forms) {
     if (likely.gain < least_gain) continue;
     Indices taken;
@@ -154,7 +156,7 @@ void Products::ask(const Indices& set, const std::vector<LikelyForms>& forms, do
     if (!(cost < least_) || (!beside.empty() && !earns_its_place(with))) continue;
     least_ = cost;
     best_ = std::move(with);
-    best_.erase(best_.end() - 1 - std::ssize(beside), best_.end() - 1);
+    if (!beside_stays) best_.erase(best_.end() - 1 - std::ssize(beside), best_.end() - 1);
     these_ = std::move(taken);
   }
 }
@@ -239,6 +241,52 @@ void Products::ask_around_the_gear() {
   }
 }
 
+/// For what runs along the flanks in waves of one order, and for waves of that order that are alike
+/// on whole flanks, with a name or without: these may be things of their own. Both flanks may have
+/// a phase of their own.
+void Products::ask_orders() {
+  constexpr int kFewestValues = 4;
+  std::map<double, Indices> of_order;
+  for (const std::size_t e : all_)
+    if (is_wave_around(model_.effects[e]) && model_.effects[e].columns() == 2)
+      of_order[model_.effects[e].order()].push_back(e);
+  for (const auto& [order, all] : of_order) {
+    Indices plain, names;
+    std::vector<Effect> own;
+    bool profile = false, face = false;
+    for (const std::size_t e : all) {
+      own.push_back(model_.effects[e]);
+      const NeedsToBeSeen needs = own.back().needs();
+      profile = profile || needs.along_profile;
+      face = face || needs.along_face;
+      if (own.back().family->named)
+        names.push_back(e);
+      else if (!needs.along_profile && !needs.along_face)
+        plain.push_back(e);
+    }
+    if (!(profile || face) || values_of(own, true) < kFewestValues) continue;
+    Indices kept = names;
+    kept.insert(kept.end(), plain.begin(), plain.end());
+    for (const Indices& set : with_and_without(all, kept)) {
+      if (set.size() < 2) continue;
+      const std::vector<Effect> others = without(set);
+      const LikeliestProducts likeliest = likeliest_beside(others);
+      const double least = least_gain(likeliest.square(), others);
+      OrderAsked asked{.order = order,
+                       .along_profile = profile,
+                       .crossed = profile && face,
+                       .beside_plain = set.size() < all.size()};
+      ask(set, likeliest.of_order(asked), least);
+      asked.phase_of_each_flank = true;
+      for (const LikelyForms& likely : likeliest.of_order(asked)) {
+        Effect other = likely.forms.front();
+        other.flank = FlankChoice::kRight;
+        ask(set, {likely}, least, {other}, true);
+      }
+    }
+  }
+}
+
 /// Waves whose size follows a course, for those without a name that are pieces of them: waves, too.
 void Products::ask_waves() {
   const auto is_wave = [&](std::size_t e) { return is_wave_along(model_.effects[e]); };
@@ -256,6 +304,7 @@ std::vector<Effect> with_products(const PartModel& model, std::vector<std::size_
   for (const int face : {0, 1}) products.ask_steps(face);
   if (!products.found()) products.ask_the_same_on_every_tooth();
   products.ask_around_the_gear();
+  products.ask_orders();
   if (!products.found()) products.ask_waves();
   if (!products.found()) model.no_products_in = model.effects;
   return std::move(products).best(these);
