@@ -292,6 +292,16 @@ std::vector<Told> forms(const loop::FlankGeometry& g) {
        1,
        0,
        1},
+      {"unnamed_scallops",
+       {0.5, 4, 0, 0},
+       "the same on every tooth, scallops with sharp grooves between them, waves across the "
+       "flanks, "
+       "0.5 over the profile",
+       "scallops with sharp ridges between them",
+       1,
+       1,
+       -1,
+       -0.75},
       {"unnamed_crossed_around",
        {5, 1, -1, 0, 0, 0, 0, 0, 0, 0, 30, 0},
        "on the teeth towards 30 deg and less and less to either side, none on the other half, "
@@ -416,7 +426,7 @@ TEST(SignWords, AreSaidOfEveryFormOfOneCoefficient) {
     // (a patch is a dish with an edge; the others have two coefficients)
     static const std::set<std::string> kOther{
         "unnamed_crossed_order", "unnamed_crossed_waves", "unnamed_patch", "unnamed_waviness",
-        "unnamed_marks", "unnamed_waves_from", "unnamed_waves_dying", "unnamed_waves_growing",
+        "unnamed_marks", "unnamed_waves_from", "unnamed_waves_mirrored", "unnamed_waves_dying", "unnamed_waves_growing",
         "unnamed_walking_waves", "unnamed_waves_changing", "unnamed_bow", "unnamed_axis_kink",
         "unnamed_field", "unnamed_facing", "unnamed_moved_sector", "unnamed_drift_aside",
         "unnamed_broken_wave", "unnamed_stairs", "unnamed_wave_of_some",

@@ -25,6 +25,16 @@ struct OrderAsked {
   bool beside_plain = false;  ///< beside a wave of the order that is alike on the whole flank
 };
 
+/// Waves over the profile, and effects beside which they say most.
+struct WavesBeside {
+  LikelyForms waves;
+  std::vector<Effect> beside;
+};
+struct LikelyWavesBeside {
+  WavesBeside mirrored;         ///< unnamed_waves_mirrored
+  WavesBeside of_either_flank;  ///< unnamed_waviness of the left flanks: on the right ones, too
+};
+
 /// Products of courses that values look like most, to start from: from residuals of scanned flanks
 /// and of traces, as sums in cells of the flanks. What other effects beside a form take out is not
 /// asked.
@@ -46,6 +56,9 @@ class LikeliestProducts {
   /// Steps over the profile (0) or the face (1), the same on every tooth, as the residuals are or
   /// beside slopes and bows: unnamed_step.
   [[nodiscard]] std::vector<LikelyForms> steps(double face, bool beside_names) const;
+  /// The same on every tooth, beside the best of these sets of effects.
+  [[nodiscard]] LikelyWavesBeside profile_waves(
+      const std::vector<std::vector<Effect>>& besides) const;
   [[nodiscard]] std::vector<LikelyForms> waves() const;  ///< unnamed_crossed_waves
   [[nodiscard]] std::vector<LikelyForms> of_order(
       const OrderAsked& asked) const;  ///< unnamed_crossed_order
