@@ -124,7 +124,7 @@ const std::vector<EffectFamily>& forms_without_cause() {
   static const std::vector<EffectFamily> forms = [] {
     std::vector<EffectFamily> all;
     for (const EffectFamily& family : effect_library())
-      if (!family.form_word.empty()) all.push_back(without_cause(family));
+      if (family.named && !family.form_word.empty()) all.push_back(without_cause(family));
     return all;
   }();
   return forms;

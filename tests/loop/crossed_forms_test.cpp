@@ -25,8 +25,9 @@ void expect_one(const loop::LoopResult& result, const std::vector<std::string>& 
   EXPECT_NE(result.verdict, loop::Verdict::kNoEffect) << list(result);
 }
 
-loop::LoopResult scanned_with(const MadeGear& gear, const Process& process, unsigned seed) {
-  return close(gear, scan_of(gear, {process}, scanned(9000, 1.5, seed)), true);
+loop::LoopResult scanned_with(const MadeGear& gear, const Process& process, unsigned seed,
+                              int points = 9000) {
+  return close(gear, scan_of(gear, {process}, scanned(points, 1.5, seed)), true);
 }
 
 TEST(CrossedForm, OfTheTipAtBothEndsIsOneForm) {
@@ -141,6 +142,50 @@ TEST(CrossedForm, OfWavesThatGrowWithTheHeightIsOneForm) {
                                    }),
                                    19);
   expect_one(result, {"4.0 waves over the profile", "more and more evenly from the lower end on"});
+}
+
+// Three jaws that gripped the lower end; both ends of a flank, and corners, are no other.
+TEST(CrossedForm, OfAnOrderThatDiesAwayFromAnEndIsOneForm) {
+  const auto jaws = [](double size_um, double phase_rad) {
+    return grown([=](const MadeGear& g, const FlankSpot& s, auto&) {
+      return size_um * std::cos(3.0 * centre_rad(g, s) - phase_rad) * std::exp(-up(s.v) / 0.3);
+    });
+  };
+  expect_one(scanned_with(spur(37), jaws(30.0, 1.2), 31, 4000),
+             {"3 times per turn, dying away from the lower end within 3", "most at 23 deg first"});
+  const MadeGear gear = helical(19, 20.0);
+  std::vector<int> teeth;
+  for (int tooth = 1; tooth <= gear.teeth; ++tooth) teeth.push_back(tooth);
+  expect_one(close(gear, inspection_of(gear, {jaws(9.0, -1.0)}, traced(teeth, 0.5, 32))),
+             {"3 times per turn, dying away from the lower end within 3", "most at 101 deg first"});
+}
+
+TEST(CrossedForm, OfAnOrderAtTheTipIsOppositeBesideAPlainWave) {
+  const auto result = scanned_with(
+      spur(29), grown([](const MadeGear& g, const FlankSpot& s, auto&) {
+        const double from_tip = 1.0 - up(s.u);
+        return s.side * 18.0 * std::cos(4.0 * centre_rad(g, s) - 1.0) * std::exp(-from_tip / 0.2) +
+               6.0 * std::cos(4.0 * centre_rad(g, s) + 0.4);
+      }),
+      33, 4000);
+  EXPECT_TRUE(tells_of(result, "4 times per turn, dying away from the tip within")) << list(result);
+  EXPECT_TRUE(tells_of(result, "there the teeth stand counter-clockwise, most at 14 deg first"))
+      << list(result);
+  EXPECT_EQ(result.effects.size(), 2U) << list(result);
+}
+
+// A ring that bends as jaws press it moves to the side as well: either flank has its own phase.
+TEST(CrossedForm, OfAnOrderMayHaveAPhaseOfEachFlank) {
+  const auto result =
+      scanned_with(spur(33), grown([](const MadeGear& g, const FlankSpot& s, auto&) {
+                     return 24.0 * std::cos(3.0 * centre_rad(g, s) - 0.5 * s.side) *
+                            std::exp(-(1.0 - up(s.v)) / 0.25);
+                   }),
+                   34, 4000);
+  EXPECT_TRUE(tells_of(result, "unnamed left")) << list(result);
+  EXPECT_TRUE(tells_of(result, "unnamed right")) << list(result);
+  EXPECT_TRUE(tells_of(result, "dying away from the upper end within 2.5 mm")) << list(result);
+  EXPECT_EQ(result.effects.size(), 2U) << list(result);
 }
 
 // Two names are two names, though their sum may be near a product.

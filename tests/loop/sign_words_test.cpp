@@ -292,6 +292,16 @@ std::vector<Told> forms(const loop::FlankGeometry& g) {
        1,
        0,
        1},
+      {"unnamed_scallops",
+       {0.5, 4, 0, 0},
+       "the same on every tooth, scallops with sharp grooves between them, waves across the "
+       "flanks, "
+       "0.5 over the profile",
+       "scallops with sharp ridges between them",
+       1,
+       1,
+       -1,
+       -0.75},
       {"unnamed_crossed_around",
        {5, 1, -1, 0, 0, 0, 0, 0, 0, 0, 30, 0},
        "on the teeth towards 30 deg and less and less to either side, none on the other half, "
@@ -415,11 +425,11 @@ TEST(SignWords, AreSaidOfEveryFormOfOneCoefficient) {
     if (family.named) continue;
     // (a patch is a dish with an edge; the others have two coefficients)
     static const std::set<std::string> kOther{
-        "unnamed_crossed_waves", "unnamed_patch", "unnamed_waviness", "unnamed_marks",
-        "unnamed_waves_from", "unnamed_waves_dying", "unnamed_waves_growing",
-        "unnamed_walking_waves", "unnamed_waves_changing", "unnamed_bow", "unnamed_axis_kink",
-        "unnamed_field", "unnamed_facing", "unnamed_moved_sector", "unnamed_drift_aside",
-        "unnamed_broken_wave", "unnamed_stairs", "unnamed_wave_of_some",
+        "unnamed_crossed_order", "unnamed_crossed_waves", "unnamed_patch", "unnamed_waviness",
+        "unnamed_marks", "unnamed_waves_from", "unnamed_waves_mirrored", "unnamed_waves_dying",
+        "unnamed_waves_growing", "unnamed_walking_waves", "unnamed_waves_changing", "unnamed_bow",
+        "unnamed_axis_kink", "unnamed_field", "unnamed_facing", "unnamed_moved_sector",
+        "unnamed_drift_aside", "unnamed_broken_wave", "unnamed_stairs", "unnamed_wave_of_some",
         // (play is said by its axis; the words of those of some teeth are those of all)
         "unnamed_wobble", "unnamed_reversal", "unnamed_kink_of_teeth", "unnamed_bend_of_teeth",
         "unnamed_waviness_of_teeth"};
@@ -444,6 +454,10 @@ TEST(SignWords, SayWhereAWaveIsLargest) {
               HasSubstr("the flanks stand out, most at 45 deg first"));
   EXPECT_THAT(told(g, effect_of("unnamed", {0, 1, 1, 1}), {-5.0, 0.0}),
               HasSubstr("the upper end stands counter-clockwise, most at 180 deg"));
+  EXPECT_THAT(told(g, effect_of("unnamed_crossed_order", {0, 0, 0, 0, 5, 2, -1, 0, 1, 3}), {0, 4}),
+              HasSubstr("3 times per turn, dying away from the lower end within 2 mm, opposite on "
+                        "the two flanks: there the teeth stand counter-clockwise, most at 30 deg "
+                        "first"));
   EXPECT_THAT(told(g, effect_of("unnamed_moved_sector", {5, 7}), {0.0, -4.0}),
               HasSubstr("7 teeth from tooth 5 on stand aside as one body, towards 270 deg"));
   EXPECT_THAT(

@@ -75,15 +75,18 @@ namespace trueflank::loop::gear_effects {
 /// True of a product of polynomials, or of what is near to them: it grows over profile and face.
 [[nodiscard]] bool is_product_of_polynomials(const FlankGeometry& geometry, const Effect& form);
 [[nodiscard]] EffectFamily unnamed_crossed_around();
+[[nodiscard]] EffectFamily unnamed_crossed_order();
 [[nodiscard]] EffectFamily unnamed_crossed_waves();
 [[nodiscard]] EffectFamily unnamed_band();
 [[nodiscard]] EffectFamily unnamed_strip();
 [[nodiscard]] EffectFamily unnamed_waviness();
+[[nodiscard]] EffectFamily unnamed_waves_mirrored();
 [[nodiscard]] EffectFamily unnamed_waves_from();
 [[nodiscard]] EffectFamily unnamed_waves_dying();
 [[nodiscard]] EffectFamily unnamed_waves_growing();
 [[nodiscard]] EffectFamily unnamed_waves_changing();
 [[nodiscard]] EffectFamily unnamed_marks();
+[[nodiscard]] EffectFamily unnamed_scallops();
 [[nodiscard]] EffectFamily unnamed_walking_waves();
 [[nodiscard]] EffectFamily unnamed_sector();
 /// Teeth that stand out or aside, which begins and ends over some teeth: told in place of a sector

@@ -31,6 +31,10 @@ struct FlankCourse {
   /// A polynomial, as the free form has them, or near to one: a kink or a bend over most of the
   /// way.
   [[nodiscard]] bool is_of_free_form(const FlankGeometry& geometry, double face) const;
+  /// A level, a slope or a bow.
+  [[nodiscard]] bool is_polynomial() const {
+    return kind == kWhole || kind == kSlope || kind == kBow;
+  }
   /// Places and widths that were sought.
   [[nodiscard]] int values_sought() const;
   /// The same moved, longer or shorter, or of a kind near to it.

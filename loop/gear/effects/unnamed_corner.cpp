@@ -26,7 +26,7 @@ double of_corner(const FlankGeometry& g, const Place& p, const EffectShape& shap
 }  // namespace
 
 /// Teeth that carry at one corner wear there. Told in place of slopes, twists and waves that follow
-/// it (crossed_forms.cpp), and no candidate of its own.
+/// it (products.cpp), and no candidate of its own.
 EffectFamily unnamed_corner() {
   EffectFamily f =
       described("unnamed_corner", {"at_tip", "at_upper_end", "profile_mm", "face_mm", "power"});

@@ -51,7 +51,7 @@ std::vector<EffectShape> courses_beside(const FlankGeometry& g, const EffectShap
 
 /// What the courses do, and where: "the profile leans: more material at the tip, above a height of
 /// 8 mm only".
-std::string words_of_courses(const ToldForm& told) {
+std::string words_of_courses(const ToldForm& told, int sign) {
   const EffectShape& shape = told.shape;
   const bool opposite = shape[kOpposite] != 0.0;
   const FlankCourse profile = FlankCourse::at(shape, kProfile),
@@ -72,7 +72,7 @@ std::string words_of_courses(const ToldForm& told) {
                          : leans        ? "at the tip"
                          : turns        ? "at the upper end"
                                         : "there";
-  return text + there(at, told.sign(), opposite);
+  return text + there(at, sign, opposite);
 }
 
 std::vector<TermKey> keys_of_courses() {
@@ -114,7 +114,7 @@ EffectFamily unnamed_crossed() {
   f.values_sought = sought_along;
   f.term_keys = keys_of_courses();
   f.words = [](const ToldForm& told) {
-    return "the same on every tooth, " + words_of_courses(told);
+    return "the same on every tooth, " + words_of_courses(told, told.sign());
   };
   return f;
 }
@@ -163,7 +163,41 @@ EffectFamily unnamed_crossed_around() {
   f.term_keys.push_back(number("half_deg"));
   f.words = [](const ToldForm& told) {
     return AroundCourse::at(told.shape, kAround).words(told.geometry) + ", " +
-           words_of_courses(told);
+           words_of_courses(told, told.sign());
+  };
+  return f;
+}
+
+/// A wave of an order around the gear that is there, or larger, along a part of the flanks: work
+/// that three jaws grip at one end. Told in place of what runs along the flanks in waves of that
+/// order (products.cpp), and no candidate of its own.
+EffectFamily unnamed_crossed_order() {
+  constexpr std::size_t kOrder = kOpposite + 1;
+  EffectFamily f = described("unnamed_crossed_order", kCourseNames);
+  f.shape_names.emplace_back("order");
+  f.columns = [](const EffectShape&) { return 2; };
+  f.one_flank_too = true;
+  set_columns(f, {[](const FlankGeometry& g, int tooth, const EffectShape& shape, double* factors) {
+                    const double angle = shape[kOrder] * g.centre_rad(tooth);
+                    factors[0] = std::cos(angle);
+                    factors[1] = std::sin(angle);
+                  },
+                  on_a_flank});
+  f.order = [](const EffectShape& shape) { return shape[kOrder]; };
+  f.needs = needs_of;
+  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
+  f.bends_over_the_face = [](const EffectShape& shape) { return has(shape, kFace); };
+  f.nearby = courses_beside;
+  f.values_sought = sought_along;
+  f.term_keys = keys_of_courses();
+  f.term_keys.push_back({"order"});
+  f.words = [](const ToldForm& told) {
+    const double direction_rad = told.direction_rad();
+    const std::string text = times_per_turn(told.shape[kOrder]) + ", " +
+                             words_of_courses(told, std::isnan(direction_rad) ? 0 : 1);
+    return std::isnan(direction_rad)
+               ? text
+               : text + ", most" + first_at(direction_rad, told.shape[kOrder]).substr(1);
   };
   return f;
 }

@@ -37,7 +37,7 @@ std::string grows(int sign, bool opposite) {
 }  // namespace
 
 /// Grows over the profile times over the face. Told in place of slopes, bows and twists that follow
-/// it (crossed_forms.cpp), and no candidate of its own.
+/// it (products.cpp), and no candidate of its own.
 EffectFamily unnamed_product() {
   EffectFamily f = described("unnamed_product", {"profile_towards", "profile_power", "face_towards",
                                                  "face_power", "opposite_flanks"});

@@ -477,6 +477,68 @@ EffectFamily unnamed_marks() {
   return f;
 }
 
+/// Arches with sharp edges between them, one beside the other across the flanks, the same on every
+/// tooth: what feed leaves. Told in place of a wave and its multiples (products.cpp), and no
+/// candidate of its own.
+EffectFamily unnamed_scallops() {
+  EffectFamily f = described("unnamed_scallops",
+                             {"waves_over_profile", "waves_over_face", "from_share", "parabolas"});
+  f.one_flank_too = true;
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    constexpr double kMeanOfSine = 2.0 / kPi, kMeanOfParabola = 2.0 / 3.0;
+    c[0] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    const double waves = 0.5 * (shape[0] * (g.profile_coordinate(p.roll_mm) + 1.0) +
+                                shape[1] * (g.face_coordinate(p.z_mm) + 1.0)) +
+                         shape[2];
+    const double off = waves - std::floor(waves) - 0.5;  // from the middle of an arch
+    c[0] = shape[3] != 0.0 ? 1.0 - 4.0 * off * off - kMeanOfParabola
+                           : std::cos(kPi * off) - kMeanOfSine;
+  };
+  f.same_on_every_tooth = [](const EffectShape&) { return true; };
+  f.needs = [](const EffectShape& shape) {
+    return NeedsToBeSeen{.along_profile = shape[0] != 0.0, .along_face = shape[1] != 0.0};
+  };
+  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
+  f.nearby = [](const FlankGeometry&, const EffectShape& shape) {
+    std::vector<EffectShape> shapes;
+    // (turned about the middle of the flank: the places of edges there stay)
+    for (const std::size_t k : {0, 1})
+      for (const double off : {0.1, 0.03, 0.01, 0.003, 0.001, 0.0003})
+        for (const double sign : {-1.0, 1.0}) {
+          shapes.push_back(shape);
+          shapes.back()[k] += sign * off;
+          shapes.back()[2] -= 0.5 * sign * off;
+        }
+    for (const double off : {0.05, 0.01, 0.003, 0.001, 0.0003})
+      for (const double sign : {-1.0, 1.0}) {
+        shapes.push_back(shape);
+        shapes.back()[2] += sign * off;
+      }
+    shapes.push_back({shape[0], shape[1], shape[2], 1.0 - shape[3]});
+    for (EffectShape& beside : shapes) beside[2] -= std::floor(beside[2]);
+    constexpr double kFewest = 2.0;  // arches: fewer are bows
+    std::erase_if(shapes, [](const EffectShape& beside) { return std::abs(beside[1]) < kFewest; });
+    return shapes;
+  };
+  f.values_sought = [](const EffectShape& shape) { return shape[0] != 0.0 ? 3 : 2; };
+  f.form_word = "scallops";  // one law: it is no form that a name would mend
+  f.term_keys = {number("waves_over_profile"),
+                 number("waves_over_face"),
+                 number("from_share"),
+                 {"arches", TermKey::Kind::kWord, {"sines", "parabolas"}}};
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const int sign = told.sign();
+    return "the same on every tooth, scallops with sharp " +
+           std::string(sign > 0   ? "grooves"
+                       : sign < 0 ? "ridges"
+                                  : "ridges or grooves") +
+           " between them, " + waves_across(told.geometry, shape[0], shape[1]);
+  };
+  return f;
+}
+
 /// Waves as unnamed_marks has them, of no whole number of periods a turn: they begin at a tooth.
 /// Told in place of waves of whole orders that follow them (waves.cpp), and no candidate
 /// of its own.

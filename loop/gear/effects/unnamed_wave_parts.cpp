@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -52,6 +53,52 @@ std::string waves(const ToldForm& told) {
 }
 
 }  // namespace
+
+/// Over the profile, mirrored on the two flanks: a tool that runs out cuts one flank of a tooth in
+/// one sense of its turn and the other flank in the other.
+EffectFamily unnamed_waves_mirrored() {
+  EffectFamily f = described("unnamed_waves_mirrored", {"wavelength_mm"});
+  f.columns = [](const EffectShape&) { return 2; };
+  f.evaluate = [](const FlankGeometry&, const Place& p, const EffectShape& shape, double* c) {
+    const bool flank = p.surface == Surface::kFlank;
+    const double angle = kTwoPi * p.roll_mm / shape[0];
+    c[0] = flank ? std::cos(angle) : 0.0;
+    c[1] = flank ? p.side * std::sin(angle) : 0.0;
+  };
+  f.values_sought = [](const EffectShape&) { return 1; };
+  f.form_word = "mirrored_waves";  // one law: it is no form that a name would mend
+  f.same_on_every_tooth = [](const EffectShape&) { return true; };
+  f.needs = [](const EffectShape&) { return NeedsToBeSeen{.along_profile = true}; };
+  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
+  f.nearby = [](const FlankGeometry&, const EffectShape& shape) {
+    // (the phases of the two flanks tell the length more exactly than one flank does)
+    std::vector<EffectShape> shapes;
+    for (const double off : {0.03, 0.01, 0.003, 0.001, 0.0003})
+      for (const double sign : {-1.0, 1.0}) shapes.push_back({(1.0 + sign * off) * shape[0]});
+    return shapes;
+  };
+  f.term_keys = {number("wavelength_mm")};
+  f.words = [](const ToldForm& told) {
+    const FlankGeometry& g = told.geometry;
+    const double length = told.shape[0], phase_mm = told.direction_rad() / kTwoPi * length;
+    const auto crest = [&](Flank flank) {
+      const double at = flank_side(flank, g.gear().kind) * phase_mm;
+      const auto [low, high] = std::minmax({end_mm(g, 0.0, -1.0), end_mm(g, 0.0, 1.0)});
+      const double first = at + length * std::ceil((low - at) / length);
+      return first <= high
+                 ? printed("a diameter of %.5g mm", 2.0 * g.on_flank(1, 1, first, 0.0).radius_mm)
+                 : std::string();
+    };
+    const std::string text = "the same on every tooth, " + waves_over(g, 0.0, length) +
+                             ", mirrored on the two flanks as of a tool that runs out";
+    const std::string left = crest(Flank::kLeft), right = crest(Flank::kRight);
+    return left.empty() || right.empty()
+               ? text
+               : text + ", the first crest at " + left + " on the left ones and " + right +
+                     " on the right ones";
+  };
+  return f;
+}
 
 /// From a place on towards an end, where they come up over some length.
 EffectFamily unnamed_waves_from() {

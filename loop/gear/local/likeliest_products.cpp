@@ -452,4 +452,14 @@ std::vector<LikelyForms> LikeliestProducts::waves() const {
                                         scan);
 }
 
+LikelyWavesBeside LikeliestProducts::profile_waves(
+    const std::vector<std::vector<Effect>>& besides) const {
+  return product_cells::likeliest_profile_waves(cells_->geometry, cells_->teeth, besides);
+}
+
+std::vector<LikelyForms> LikeliestProducts::of_order(const OrderAsked& asked) const {
+  const auto& [g, scan, teeth, profiles, faces, ways] = *cells_;
+  return product_cells::likeliest_orders(g, teeth, profiles, faces, scan, asked);
+}
+
 }  // namespace trueflank::loop

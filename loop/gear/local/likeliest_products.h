@@ -15,6 +15,26 @@ struct LikelyForms {
   std::vector<Effect> forms;
 };
 
+/// An order around the gear of which a course along the flanks is asked.
+struct OrderAsked {
+  double order = 0.0;
+  bool along_profile = false;  ///< courses over the profile, too
+  bool crossed = false;        ///< over profile and face at once, too
+  /// On both flanks the same course, each with a phase of its own: forms of the left flanks.
+  bool phase_of_each_flank = false;
+  bool beside_plain = false;  ///< beside a wave of the order that is alike on the whole flank
+};
+
+/// Waves over the profile, and effects beside which they say most.
+struct WavesBeside {
+  LikelyForms waves;
+  std::vector<Effect> beside;
+};
+struct LikelyWavesBeside {
+  WavesBeside mirrored;         ///< unnamed_waves_mirrored
+  WavesBeside of_either_flank;  ///< unnamed_waviness of the left flanks: on the right ones, too
+};
+
 /// Products of courses that values look like most, to start from: from residuals of scanned flanks
 /// and of traces, as sums in cells of the flanks. What other effects beside a form take out is not
 /// asked.
@@ -36,7 +56,12 @@ class LikeliestProducts {
   /// Steps over the profile (0) or the face (1), the same on every tooth, as the residuals are or
   /// beside slopes and bows: unnamed_step.
   [[nodiscard]] std::vector<LikelyForms> steps(double face, bool beside_names) const;
-  [[nodiscard]] std::vector<LikelyForms> waves() const;            ///< unnamed_crossed_waves
+  /// The same on every tooth, beside the best of these sets of effects.
+  [[nodiscard]] LikelyWavesBeside profile_waves(
+      const std::vector<std::vector<Effect>>& besides) const;
+  [[nodiscard]] std::vector<LikelyForms> waves() const;  ///< unnamed_crossed_waves
+  [[nodiscard]] std::vector<LikelyForms> of_order(
+      const OrderAsked& asked) const;  ///< unnamed_crossed_order
 
  private:
   struct Cells;

@@ -81,6 +81,20 @@ using OfTeeth = std::vector<std::array<OfFlank, 2>>;
                                                        const std::vector<CourseInCells>& faces,
                                                        const Arounds& arounds, bool scan);
 
+/// Waves over the profile that are the same on every tooth, beside the set of effects that leaves
+/// least with them.
+[[nodiscard]] LikelyWavesBeside likeliest_profile_waves(
+    const FlankGeometry& geometry, const OfTeeth& teeth,
+    const std::vector<std::vector<Effect>>& besides);
+
+/// Waves of an order around the gear whose size follows a course along the flanks: lists of
+/// unnamed_crossed_order.
+[[nodiscard]] std::vector<LikelyForms> likeliest_orders(const FlankGeometry& geometry,
+                                                        const OfTeeth& teeth,
+                                                        const std::vector<CourseInCells>& profiles,
+                                                        const std::vector<CourseInCells>& faces,
+                                                        bool scan, const OrderAsked& asked);
+
 /// Steps over the profile (0) or the face (1) that are the same on every tooth: lists of
 /// unnamed_step, one for each way of flanks, sharp and with edges. A level is free beside them;
 /// `beside_names`: so are a slope and a bow.

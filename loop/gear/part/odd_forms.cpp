@@ -316,7 +316,8 @@ void tell_means_across_flanks(PartModel& model) {
   FlankField forms = FlankField::Zero(2 * kGridSide * kGridSide, model.geometry.teeth());
   for (std::size_t e = 0; e < model.effects.size(); ++e)
     if (model.effects[e].is_term() && model.effects[e].order() == 0.0 &&
-        model.effects[e].columns() == 1)
+        model.effects[e].columns() == 1 &&
+        model.effects[e].family != find_family("unnamed_scallops"))
       forms += field_of(model.geometry, *fit, e);
   const std::array<MeanOfFlank, 2> mean = mean_of_flanks(forms);
   for (std::size_t e = 0; e < model.effects.size(); ++e) {

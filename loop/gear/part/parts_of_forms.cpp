@@ -257,7 +257,7 @@ void tell_imitations(PartModel& model) {
   const auto fit = fit_of(model, model.effects);
   std::array<Eigen::VectorXd, 2> forms = slow_forms(model.geometry, *fit);
   for (std::size_t e = 0; e < model.effects.size(); ++e)
-    if (model.effects[e].is_term() && !model.effects[e].family->form_word.empty() &&
+    if (model.effects[e].family == find_form(model.effects[e].family->form_word) &&
         model.effects[e].order() == 0.0 &&
         model.effects[e].columns() == 1)  // told as a form already
       for (const bool face : {false, true})

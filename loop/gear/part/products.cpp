@@ -1,30 +1,53 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Steps with an edge, and products of simple courses in place of what follows them in pieces: over
-// profile and face, from tooth to tooth, and waves weighed by a course. Places and widths are
-// sought in what is left without the pieces, which do not lead to them.
+// Steps with an edge, corners, and products of simple courses in place of what follows them in
+// pieces: over profile and face, from tooth to tooth, and waves weighed by a course. Places and
+// widths are sought in what is left without the pieces, which do not lead to them.
 #include "trueflank/loop/gear/part/products.h"
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "trueflank/base/units.h"
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/local/likeliest_products.h"
-#include "trueflank/loop/gear/part/crossed_forms.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
+#include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/runs_along.h"
 #include "trueflank/loop/gear/part/taken_up.h"
+#include "trueflank/loop/gear/part/waves.h"
 #include "trueflank/loop/gear/part/whole_forms.h"
 
 namespace trueflank::loop {
 namespace {
 
 using Indices = std::vector<std::size_t>;
+
+/// Sets of what is told: all that is the same on every tooth, and that less each name, and less all
+/// names; empty where nothing of it runs over profile and face at once, or it has fewer values.
+std::vector<Indices> crossed_sets(const PartModel& model, int fewest_values) {
+  Indices all, names;
+  std::vector<Effect> own;
+  bool crossed = false;
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    const Runs runs = runs_of(model.geometry, model.effects[e]);
+    if (runs == Runs::kOtherwise) continue;
+    all.push_back(e);
+    own.push_back(model.effects[e]);
+    if (model.effects[e].family->named) names.push_back(e);
+    crossed = crossed || runs == Runs::kOverBoth;
+  }
+  if (!crossed || values_of(own, true) < fewest_values) return {};
+  return with_and_without(all, names);
+}
 
 /// By how much squares grow without an effect.
 double loss_without(const PointFit& fit, std::size_t e) {
@@ -37,6 +60,34 @@ bool is_wave_along(const Effect& effect) {
   const std::vector<std::string>& names = effect.family->shape_names;
   return effect.family == find_family("unnamed_marks") ||
          std::find(names.begin(), names.end(), "wavelength_mm") != names.end();
+}
+
+/// Names with a place over the profile at all their places, a list for each: alone, and beside the
+/// slopes among these.
+std::vector<std::vector<std::vector<Effect>>> names_with_a_place(
+    const PartModel& model, const std::vector<Effect>& straight) {
+  std::vector<std::vector<std::vector<Effect>>> kinds;
+  std::vector<Effect> slopes = straight;
+  std::erase_if(slopes, [&](const Effect& name) { return !is_straight(model.geometry, name); });
+  std::vector<const EffectFamily*> known;
+  for (std::size_t c = 0; c < model.candidates.size(); ++c) {
+    const Effect& name = model.candidates[c];
+    const EffectFamily& family = *name.family;
+    if (!family.named || !family.shape_is_continuous || name.flank != FlankChoice::kBoth ||
+        model.unseen[c] || std::find(known.begin(), known.end(), &family) != known.end() ||
+        runs_of(model.geometry, name) != Runs::kOverProfile)
+      continue;
+    known.push_back(&family);
+    std::vector<std::vector<Effect>> alone, with_slope;
+    for (const EffectShape& shape : family.shapes(model.geometry)) {
+      alone.push_back({{&family, name.flank, shape}});
+      with_slope.push_back(slopes);
+      with_slope.back().push_back(alone.back().front());
+    }
+    kinds.push_back(std::move(alone));
+    if (!slopes.empty()) kinds.push_back(std::move(with_slope));
+  }
+  return kinds;
 }
 
 /// The cheapest step or product that stands for effects of an answer, as they are asked one after
@@ -60,6 +111,9 @@ class Products {
   void ask_steps(int face);
   void ask_the_same_on_every_tooth();
   void ask_around_the_gear();
+  void ask_orders();
+  void ask_profile_waves();
+  void ask_scallops();
   void ask_waves();
 
  private:
@@ -76,9 +130,10 @@ class Products {
   [[nodiscard]] std::vector<Effect> common_names_beside(const std::vector<Effect>& others,
                                                         std::optional<Runs> along = {}) const;
   [[nodiscard]] Indices pieces_of(const Effect& form, const Indices& set) const;
+  [[nodiscard]] bool mends_a_name(const std::vector<Effect>& with) const;
   [[nodiscard]] bool earns_its_place(const std::vector<Effect>& with) const;
   void ask(const Indices& set, const std::vector<LikelyForms>& forms, double least_gain,
-           const std::vector<Effect>& beside = {});
+           const std::vector<Effect>& beside = {}, std::ptrdiff_t stay = 0);
 
   const PartModel& model_;
   double now_;
@@ -134,15 +189,32 @@ std::vector<std::size_t> Products::pieces_of(const Effect& form, const Indices& 
 
 /// False where the names beside a form, the last, say nearly as much without it.
 bool Products::earns_its_place(const std::vector<Effect>& with) const {
-  constexpr double kClearly = 9.0;  // chi-square
+  // Chi-square. Waves are sought among many lengths.
+  const double kClearly = is_wave_along(with.back()) ? 60.0 : 9.0;
   std::vector<Effect> without = with;
   without.pop_back();
   return cost_of(model_, with) < cost_of(model_, without) - kClearly;
 }
 
-/// Forms for a set; names that are free beside them do not stay: they are chosen anew.
+/// True where the last is a wave that is small beside a name with a place: it mends a name that is
+/// not there.
+bool Products::mends_a_name(const std::vector<Effect>& with) const {
+  constexpr double kSmall = 0.25;
+  if (!is_wave_along(with.back())) return false;
+  const auto fit = fit_of(model_, with);
+  const auto last = static_cast<int>(with.size()) - 1;
+  for (int e = 0; e < last; ++e)
+    if (with[static_cast<std::size_t>(e)].family->named &&
+        with[static_cast<std::size_t>(e)].family->shape_is_continuous &&
+        fit->effect_size_um(last) < kSmall * fit->effect_size_um(e))
+      return true;
+  return false;
+}
+
+/// Forms for a set; names that are free beside them do not stay: they are chosen anew. So many, the
+/// last, do.
 void Products::ask(const Indices& set, const std::vector<LikelyForms>& forms, double least_gain,
-                   const std::vector<Effect>& beside) {
+                   const std::vector<Effect>& beside, std::ptrdiff_t stay) {
   for (const LikelyForms& likely : forms) {
     if (likely.gain < least_gain) continue;
     Indices taken;
@@ -152,9 +224,10 @@ void Products::ask(const Indices& set, const std::vector<LikelyForms>& forms, do
       continue;
     const double cost = cost_of(model_, with);
     if (!(cost < least_) || (!beside.empty() && !earns_its_place(with))) continue;
+    if (mends_a_name(with)) continue;
     least_ = cost;
     best_ = std::move(with);
-    best_.erase(best_.end() - 1 - std::ssize(beside), best_.end() - 1);
+    best_.erase(best_.end() - 1 - std::ssize(beside), best_.end() - 1 - stay);
     these_ = std::move(taken);
   }
 }
@@ -239,6 +312,173 @@ void Products::ask_around_the_gear() {
   }
 }
 
+/// A wave over the profile that is the same on every tooth, mirrored on the two flanks or in a
+/// phase of either, for all that runs over the profile: one wave on two flanks, beside a relief,
+/// ended in pieces. Names may stand beside it.
+void Products::ask_profile_waves() {
+  constexpr int kFewestValues = 4;
+  constexpr double kFar = 100.0;  // chi-square
+  constexpr double kSmall = 0.25;
+  Indices all, nameless;
+  std::vector<Effect> own;
+  double wave_um = 0.0, largest_um = 0.0;
+  const auto fit = fit_of(model_, model_.effects);
+  for (const std::size_t e : all_) {
+    const Effect& effect = model_.effects[e];
+    const NeedsToBeSeen needs = effect.needs();
+    const bool of_teeth =
+        gear_effects::is_of_teeth(effect) && needs.along_profile && !needs.along_face;
+    if (!of_teeth && runs_of(model_.geometry, effect, Flanks::kOfEither) != Runs::kOverProfile)
+      continue;
+    all.push_back(e);
+    const double size_um = fit->effect_size_um(static_cast<int>(e));
+    largest_um = std::max(largest_um, size_um);
+    if (effect.family->named) continue;
+    nameless.push_back(e);
+    own.push_back(effect);
+    if (is_wave_along(effect)) wave_um = std::max(wave_um, size_um);
+  }
+  // (a small wave is what mends a larger form)
+  if (!(wave_um > kSmall * largest_um) || values_of(own, true) < kFewestValues ||
+      fit_of(model_, without(nameless))->residual_square() < now_ + kFar)
+    return;
+  std::vector<Indices> sets{all};
+  if (nameless.size() < all.size()) sets.push_back(nameless);
+  for (const Indices& set : sets) {
+    const std::vector<Effect> others = without(set);
+    const std::vector<Effect> straight = common_names_beside(others, Runs::kOverProfile);
+    std::vector<std::vector<std::vector<Effect>>> kinds{{{}}, {straight}};
+    if (set.size() == all.size())
+      for (auto& kind : names_with_a_place(model_, straight)) kinds.push_back(std::move(kind));
+    const LikeliestProducts likeliest = likeliest_beside(others);
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+      const std::ptrdiff_t stay = k > 1 ? 1 : 0;  // a name with a place
+      const LikelyWavesBeside found = likeliest.profile_waves(kinds[k]);
+      ask(set, {found.mirrored.waves}, 0.0, found.mirrored.beside, stay);
+      std::vector<Effect> beside = found.of_either_flank.beside;
+      beside.push_back(found.of_either_flank.waves.forms.front());
+      beside.back().flank = FlankChoice::kRight;
+      ask(set, {found.of_either_flank.waves}, 0.0, beside, stay + 1);
+    }
+  }
+}
+
+/// One wave across the flanks, straight, on both flanks or one, or with its multiples scallops, for
+/// all waves that are the same on every tooth, and for all that is.
+void Products::ask_scallops() {
+  constexpr int kFewestValues = 4;
+  constexpr double kFar = 100.0;   // chi-square
+  constexpr double kFewest = 2.0;  // waves over the face
+  Indices all, nameless, no_orders;
+  std::vector<Effect> own;
+  const auto fit = fit_of(model_, model_.effects);
+  WaveAcross most;
+  std::set<FlankChoice> flanks;  // of the waves
+  for (const std::size_t e : all_) {
+    const Effect& effect = model_.effects[e];
+    const bool wave = effect.columns() == 2 && (effect.family == find_family("unnamed_marks") ||
+                                                effect.family == find_family("unnamed_waviness"));
+    const bool alike =
+        (effect.family->same_on_every_tooth && effect.family->same_on_every_tooth(effect.shape)) ||
+        (wave && effect.shape.back() == 0.0);
+    const bool order = effect.family->tells_order_along_profile;  // (lines that run on over teeth)
+    const bool name = effect.family->named && !order;
+    if (!(alike || order) || (name && runs_of(model_.geometry, effect) != Runs::kOverProfile))
+      continue;
+    all.push_back(e);
+    if (name) continue;
+    nameless.push_back(e);
+    if (!order) no_orders.push_back(e);
+    own.push_back(effect);
+    if (!wave) continue;
+    const Effect on_both{effect.family, FlankChoice::kBoth, effect.shape};
+    WaveAcross here = wave_across(model_.geometry, on_both, 1);
+    here.size_um = fit->effect_size_um(static_cast<int>(e));
+    if (std::abs(here.face) > kFewest && here.size_um > most.size_um) most = here;
+    flanks.insert(effect.flank);
+  }
+  if (most.size_um == 0.0 || values_of(own, true) < kFewestValues ||
+      fit_of(model_, without(nameless))->residual_square() < now_ + kFar)
+    return;
+  std::vector<Indices> sets{nameless};
+  if (all.size() > nameless.size()) sets.push_back(all);
+  if (no_orders.size() < nameless.size()) sets.push_back(no_orders);
+  for (const Indices& set : sets) {
+    if (set.size() < 2) continue;
+    // The wave first, in any direction.
+    std::vector<Effect> waves;
+    for (double profile = -2.0; profile <= 2.0; profile += 0.125)
+      for (const double times : {0.94, 0.97, 1.0, 1.03, 1.06})
+        waves.push_back({find_family("unnamed_marks"),
+                         flanks.size() == 1 ? *flanks.begin() : FlankChoice::kBoth,
+                         {profile, times * std::abs(most.face), 0.0}});
+    std::vector<Effect> with = with_best_form(model_, without(set), waves, {});
+    if (with.empty() || std::abs(with.back().shape[1]) < kFewest) continue;
+    ask(set, {{0.0, {with.back()}}}, 0.0);
+    const auto fitted = fit_of(model_, with);
+    const int first = fitted->first_column(static_cast<int>(with.size()) - 1);
+    // (marks count from the root's lower corner, as scallops do)
+    const double crest =
+        std::atan2(fitted->coefficients()[first + 1], fitted->coefficients()[first]) / kTwoPi;
+    std::vector<Effect> scallops;
+    for (const double middle : {0.0, 0.5})
+      for (const double parabolas : {0.0, 1.0}) {
+        const double from = 0.5 - crest + middle;
+        scallops.push_back(
+            {find_family("unnamed_scallops"),
+             with.back().flank,
+             {with.back().shape[0], with.back().shape[1], from - std::floor(from), parabolas}});
+      }
+    ask(set, {{0.0, scallops}}, 0.0);
+  }
+}
+
+/// For what runs along the flanks in waves of one order, and for waves of that order that are alike
+/// on whole flanks, with a name or without: these may be things of their own. Both flanks may have
+/// a phase of their own.
+void Products::ask_orders() {
+  constexpr int kFewestValues = 4;
+  std::map<double, Indices> of_order;
+  for (const std::size_t e : all_)
+    if (is_wave_around(model_.effects[e]) && model_.effects[e].columns() == 2)
+      of_order[model_.effects[e].order()].push_back(e);
+  for (const auto& [order, all] : of_order) {
+    Indices plain, names;
+    std::vector<Effect> own;
+    bool profile = false, face = false;
+    for (const std::size_t e : all) {
+      own.push_back(model_.effects[e]);
+      const NeedsToBeSeen needs = own.back().needs();
+      profile = profile || needs.along_profile;
+      face = face || needs.along_face;
+      if (own.back().family->named)
+        names.push_back(e);
+      else if (!needs.along_profile && !needs.along_face)
+        plain.push_back(e);
+    }
+    if (!(profile || face) || values_of(own, true) < kFewestValues) continue;
+    Indices kept = names;
+    kept.insert(kept.end(), plain.begin(), plain.end());
+    for (const Indices& set : with_and_without(all, kept)) {
+      if (set.size() < 2) continue;
+      const std::vector<Effect> others = without(set);
+      const LikeliestProducts likeliest = likeliest_beside(others);
+      const double least = least_gain(likeliest.square(), others);
+      OrderAsked asked{.order = order,
+                       .along_profile = profile,
+                       .crossed = profile && face,
+                       .beside_plain = set.size() < all.size()};
+      ask(set, likeliest.of_order(asked), least);
+      asked.phase_of_each_flank = true;
+      for (const LikelyForms& likely : likeliest.of_order(asked)) {
+        Effect other = likely.forms.front();
+        other.flank = FlankChoice::kRight;
+        ask(set, {likely}, least, {other}, 1);
+      }
+    }
+  }
+}
+
 /// Waves whose size follows a course, for those without a name that are pieces of them: waves, too.
 void Products::ask_waves() {
   const auto is_wave = [&](std::size_t e) { return is_wave_along(model_.effects[e]); };
@@ -256,9 +496,28 @@ std::vector<Effect> with_products(const PartModel& model, std::vector<std::size_
   for (const int face : {0, 1}) products.ask_steps(face);
   if (!products.found()) products.ask_the_same_on_every_tooth();
   products.ask_around_the_gear();
+  products.ask_orders();
+  products.ask_profile_waves();
+  products.ask_scallops();
   if (!products.found()) products.ask_waves();
   if (!products.found()) model.no_products_in = model.effects;
   return std::move(products).best(these);
+}
+
+bool tell_as_corner(PartModel& model) {
+  constexpr int kValuesOfCorner = 5;
+  for (const Indices& these : crossed_sets(model, kValuesOfCorner + 1))
+    for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight})
+      if (put_one_form_for(model, these, corners(model.geometry, flank))) return true;
+  return false;
+}
+
+bool tell_as_product(PartModel& model) {
+  for (const Indices& these : crossed_sets(model, 2))
+    for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight})
+      if (these.size() > 1 && put_one_form_for(model, these, gear_effects::products(flank)))
+        return true;
+  return false;
 }
 
 }  // namespace trueflank::loop

@@ -8,5 +8,11 @@ namespace trueflank::loop {
 /// The answer with a product of simple courses, the last, in place of these; empty where none does.
 [[nodiscard]] std::vector<Effect> with_products(const PartModel& model,
                                                 std::vector<std::size_t>& these);
+/// A corner of the flanks of one side, or of both, for all that is the same on every tooth: slopes
+/// of both flanks, alike and opposite, are one of one side. A name may stand beside it.
+[[nodiscard]] bool tell_as_corner(PartModel& model);
+/// What grows over the profile times over the face, for two or more that are the same on every
+/// tooth: a taper, a twist and a bow of a cure that reaches less far down.
+[[nodiscard]] bool tell_as_product(PartModel& model);
 
 }  // namespace trueflank::loop

@@ -60,7 +60,12 @@ bool adopt_if_simpler(PartModel& model, PartOptions options, int least_spared) {
   if (measured->is_displaced) undo_displacement(model.geometry, measured.own());
   PartModel names(model.geometry, std::move(measured), std::move(options));
   explain_part(names);
-  if (names.effects.empty()) return false;
+  const double teeth = model.geometry.teeth();
+  if (names.effects.empty() ||
+      std::any_of(names.effects.begin(), names.effects.end(), [&](const Effect& e) {
+        return e.family->tells_order_along_profile && std::remainder(e.order(), teeth) == 0.0;
+      }))
+    return false;  // (what every tooth has alike is no machine's order)
   add_names(names, values_of(model.effects, true) - least_spared);
   tell_parts_of_a_form(names);
   // Forms may stand beside them where that says more with fewer values and has more names.

@@ -23,42 +23,6 @@
 namespace trueflank::loop {
 namespace {
 
-/// A wave of two columns over the flanks of one side: how many waves from root to tip, from the
-/// lower end to the upper one, and how many a turn its phase goes on from tooth to tooth.
-struct WaveAcross {
-  std::size_t effect = 0;
-  double profile = 0.0, face = 0.0, order = 0.0;
-  double size_um = 0.0;
-
-  [[nodiscard]] WaveAcross reversed() const { return {effect, -profile, -face, -order, size_um}; }
-};
-
-WaveAcross wave_across(const FlankGeometry& geometry, const Effect& effect, int side) {
-  constexpr int kSteps = 512;
-  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
-  const auto phase = [&](int tooth, double u, double v) {
-    double c[2];
-    effect.evaluate(
-        geometry,
-        geometry.on_flank(tooth, side, low + u * (high - low), v * geometry.face_width_mm()), c);
-    return std::atan2(c[1], c[0]);
-  };
-  const auto waves_along = [&](double profile, double face) {
-    double turned = 0.0, before = phase(1, 0.0, 0.0);
-    for (int i = 1; i <= kSteps; ++i) {
-      const double share = static_cast<double>(i) / kSteps;
-      const double now = phase(1, profile * share, face * share);
-      turned += std::remainder(now - before, kTwoPi);
-      before = now;
-    }
-    return turned / kTwoPi;
-  };
-  return {.profile = waves_along(1.0, 0.0),
-          .face = waves_along(0.0, 1.0),
-          .order = std::remainder(phase(2, 0.0, 0.0) - phase(1, 0.0, 0.0), kTwoPi) / kTwoPi *
-                   geometry.teeth()};
-}
-
 /// The length of the largest wave without a name among some effects; empty: there is none.
 std::optional<double> largest_wavelength_mm(const PartModel& model,
                                             const std::vector<std::size_t>& of) {
@@ -103,6 +67,32 @@ std::vector<Effect> with_pair_for(const PartModel& model, const std::vector<std:
 }
 
 }  // namespace
+
+WaveAcross wave_across(const FlankGeometry& geometry, const Effect& effect, int side) {
+  constexpr int kSteps = 512;
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  const auto phase = [&](int tooth, double u, double v) {
+    double c[2];
+    effect.evaluate(
+        geometry,
+        geometry.on_flank(tooth, side, low + u * (high - low), v * geometry.face_width_mm()), c);
+    return std::atan2(c[1], c[0]);
+  };
+  const auto waves_along = [&](double profile, double face) {
+    double turned = 0.0, before = phase(1, 0.0, 0.0);
+    for (int i = 1; i <= kSteps; ++i) {
+      const double share = static_cast<double>(i) / kSteps;
+      const double now = phase(1, profile * share, face * share);
+      turned += std::remainder(now - before, kTwoPi);
+      before = now;
+    }
+    return turned / kTwoPi;
+  };
+  return {.profile = waves_along(1.0, 0.0),
+          .face = waves_along(0.0, 1.0),
+          .order = std::remainder(phase(2, 0.0, 0.0) - phase(1, 0.0, 0.0), kTwoPi) / kTwoPi *
+                   geometry.teeth()};
+}
 
 bool tell_as_part_of_a_wave(PartModel& model, const std::vector<std::size_t>& all, int face,
                             FlankChoice flank) {
@@ -208,6 +198,46 @@ std::vector<Effect> with_phase_of_each_flank(const PartModel& model,
     if (!best.empty()) least -= kClearly;
   }
   return best;
+}
+
+std::vector<Effect> with_wave_of_the_tool(const PartModel& model, std::vector<std::size_t>& these) {
+  constexpr double kNothing = 1.0, kWave = 24.0;  // chi-square, of a wave over the face that goes
+  std::vector<std::size_t> over_face;
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e)
+    if (model.effects[e].family == find_family("unnamed_waviness") &&
+        model.effects[e].shape[0] != 0.0)
+      over_face.push_back(e);
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    const Effect& wave = model.effects[e];
+    if (!wave.family->tells_order_along_profile ||
+        std::remainder(wave.order(), model.geometry.teeth()) != 0.0)
+      continue;
+    const double length_mm = kTwoPi * model.geometry.base_radius_mm() / wave.order();
+    const Effect form = wave.flank == FlankChoice::kBoth
+                            ? Effect{find_family("unnamed_waves_mirrored"), wave.flank, {length_mm}}
+                            : Effect{find_family("unnamed_waviness"), wave.flank, {0.0, length_mm}};
+    std::vector<std::vector<std::size_t>> sets{{e}};
+    if (!over_face.empty()) {
+      sets.push_back(over_face);
+      sets.back().push_back(e);
+      std::sort(sets.back().begin(), sets.back().end());
+    }
+    for (const std::vector<std::size_t>& set : sets) {
+      std::vector<Effect> with;
+      for (std::size_t other = 0; other < model.effects.size(); ++other)
+        if (std::find(set.begin(), set.end(), other) == set.end())
+          with.push_back(model.effects[other]);
+      with.push_back(form);
+      refine_nearby(model.geometry, model.table, model.patches, with);
+      if (fit_of(model, with)->residual_square() > fit_of(model, model.effects)->residual_square() +
+                                                       kNothing +
+                                                       kWave * static_cast<double>(set.size() - 1))
+        continue;
+      these = set;
+      return with;
+    }
+  }
+  return {};
 }
 
 void tell_waves_of_a_form(PartModel& model) {

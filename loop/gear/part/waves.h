@@ -8,6 +8,18 @@
 
 namespace trueflank::loop {
 
+/// A wave of two columns over the flanks of one side: how many waves from root to tip, from the
+/// lower end to the upper one, and how many a turn its phase goes on from tooth to tooth.
+struct WaveAcross {
+  std::size_t effect = 0;
+  double profile = 0.0, face = 0.0, order = 0.0;
+  double size_um = 0.0;
+
+  [[nodiscard]] WaveAcross reversed() const { return {effect, -profile, -face, -order, size_um}; }
+};
+
+[[nodiscard]] WaveAcross wave_across(const FlankGeometry& geometry, const Effect& effect, int side);
+
 /// A part of a wave along one direction for what runs there on these flanks in pieces.
 [[nodiscard]] bool tell_as_part_of_a_wave(PartModel& model, const std::vector<std::size_t>& all,
                                           int face, FlankChoice flank);
@@ -21,6 +33,11 @@ namespace trueflank::loop {
 /// another order has both phases by chance, or two beside each other have. Empty: there is none.
 [[nodiscard]] std::vector<Effect> with_phase_of_each_flank(const PartModel& model,
                                                            std::vector<std::size_t>& these);
+/// A wave over the profile for one over the generating rotation that every tooth has alike: it is
+/// the tool's form or runout, and no machine's order. Also for that and waves over the face, which
+/// undo what it has there. Empty where the data show more than the profile wave has.
+[[nodiscard]] std::vector<Effect> with_wave_of_the_tool(const PartModel& model,
+                                                        std::vector<std::size_t>& these);
 /// Waves around the gear of three orders or more and of like size, none a multiple of the lowest,
 /// or of two beside a drift: what one odd form is made of.
 void tell_waves_of_a_form(PartModel& model);
