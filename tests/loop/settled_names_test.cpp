@@ -44,6 +44,39 @@ TEST(SettledNames, AReliefBesideTeethThatLeanInTurn) {
   expect_size(result, "tip_relief", "amount_um", 12.0, 0.6);
 }
 
+/// A profile that leans and is relieved from a share of its length on.
+Process leaning_and_relieved(double slope_um, double relief_um, double from) {
+  return grown([=](auto&, const FlankSpot& s, auto&) {
+    return 0.5 * slope_um * s.u -
+           relief_um * std::pow(std::max(share_of(s) - from, 0.0) / (1.0 - from), 2);
+  });
+}
+void expect_slope_and_relief(const loop::LoopResult& result, double slope_um, double relief_um,
+                             double within) {
+  expect_size(result, "pressure_angle_error", "slope_um", slope_um, within);
+  expect_size(result, "tip_relief", "amount_um", relief_um, within);
+}
+
+// Both take material off the tip: what rises towards it says nearly as much, with a value less.
+TEST(SettledNames, ASlopeAndAReliefInsteadOfOneRise) {
+  const MadeGear gear = spur(34);
+  for (const unsigned seed : {2U, 3U, 4U, 5U, 6U}) {
+    const auto traces = inspection_of(gear, {leaning_and_relieved(-1.65, 2.85, 0.62)},
+                                      traced({1, 6, 12, 18, 23, 29}, 0.34, seed));
+    expect_slope_and_relief(close(gear, traces), -1.65, 2.85, 0.45);
+  }
+}
+
+// What swells from end to end imitates a slope towards the tip that a relief ends.
+TEST(SettledNames, ASlopeAndAReliefInsteadOfASwelling) {
+  const MadeGear gear = spur(40);
+  for (const unsigned seed : {14U, 15U, 17U}) {
+    const auto traces = inspection_of(gear, {leaning_and_relieved(11.2, 11.6, 0.6)},
+                                      traced({1, 10, 20, 30}, 1.36, seed));
+    expect_slope_and_relief(close(gear, traces), 11.2, 11.6, 1.5);
+  }
+}
+
 // A step of one tooth hides a taper and a crowning at first: they came to a bow from a place on,
 // or to a part of a long wave.
 TEST(SettledNames, ATaperAndACrowningInsteadOfABendOrALongWave) {

@@ -163,9 +163,19 @@ std::vector<Effect> names_of_term(const PartModel& model, const Effect& term) {
   return names;
 }
 
+/// Forms of all flanks that names may imitate, and they names: waves of the tool of few periods,
+/// and what swells from end to end.
+bool is_imitated_by_names(const FlankGeometry& geometry, const Effect& effect) {
+  constexpr double kFewPeriods = 1.6;
+  return effect.family == find_family("unnamed_sag") ||
+         (effect.family == find_family("unnamed_waves_mirrored") &&
+          std::abs(geometry.tip_form_roll_mm() - geometry.root_form_roll_mm()) <
+              kFewPeriods * effect.shape[0]);
+}
+
 /// What curves towards a place on all flanks, or is longer than they are, and what else is smooth
 /// along the profile (0) or the face (1), may be one or two names: where these need fewer values
-/// and leave little more for them, or leave clearly less with as many.
+/// and leave little more for them, or leave clearly less with as many or one more.
 bool tell_as_names(PartModel& model, int face) {
   constexpr double kClearly = 9.0, kValue = 6.0, kBetter = 1.0;  // chi-square
   const Runs runs = face == 0 ? Runs::kOverProfile : Runs::kOverFace;
@@ -175,13 +185,16 @@ bool tell_as_names(PartModel& model, int face) {
   for (std::size_t e = 0; e < model.effects.size(); ++e) {
     const Effect& effect = model.effects[e];
     const EffectFamily& family = *effect.family;
-    const bool long_form = effect.is_term() && family.form_word.empty() &&
-                           is_longer_than_the_flank(model.geometry, effect, face == 1);
+    const bool imitated = is_imitated_by_names(model.geometry, effect);
+    const bool long_form =
+        imitated || (effect.is_term() && family.form_word.empty() &&
+                     is_longer_than_the_flank(model.geometry, effect, face == 1));
     const bool smooth =
         effect.columns() == 1 && (family.is_like_many || family.named ||
                                   !family.form_word.empty() || &family == find_family("unnamed"));
     if (e < first_told_here(model) || effect.flank != FlankChoice::kBoth ||
-        !(smooth || long_form) || family.shape_is_step || runs_of(model.geometry, effect) != runs) {
+        !(smooth || long_form) || family.shape_is_step ||
+        runs_of(model.geometry, effect, imitated ? Flanks::kOfEither : Flanks::kAlike) != runs) {
       rest.push_back(effect);
       continue;
     }
@@ -202,8 +215,8 @@ bool tell_as_names(PartModel& model, int face) {
     // One form that runs as one name does is that name.
     const bool same = own.size() == 1 && names.size() == 1 &&
                       run_alike(model.geometry, own.front(), names.front());
-    const double most = same ? now + kValue : now - (spared == 0 ? kClearly : 0.0);
-    if (spared < 0 || cost > least - kBetter || cost > most) return;
+    const double most = same ? now + kValue : now - (spared <= 0 ? kClearly : 0.0);
+    if (spared < -1 || cost > least - kBetter || cost > most) return;
     const auto fit = fit_of(model, with);
     for (std::size_t e = rest.size(); e < with.size(); ++e) {
       // A hollow bow beside a slope is what swells towards an end.
