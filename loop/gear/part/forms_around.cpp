@@ -280,12 +280,20 @@ bool tell_as_repeating(PartModel& model) {
 
 bool tell_as_swellings_at_end(PartModel& model) {
   constexpr std::size_t kFewestOfOne = 3;
-  std::vector<std::size_t> waves, feet;
+  const EffectFamily* const swellings = find_family("unnamed_swellings_at_end");
+  std::vector<std::size_t> waves, feet, others;
   int in_common = 0, lowest = 0;  // orders
   for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
     const Effect& effect = model.effects[e];
-    if (effect.flank != FlankChoice::kBoth || effect.family->local ||
-        effect.needs().along_profile || (effect.family->displacement_mm && effect.order() == 0.0))
+    if (effect.family == swellings) {
+      others.push_back(e);
+      continue;
+    }
+    // (Waves of an order may have a phase of each flank.)
+    const bool of_a_flank =
+        effect.flank != FlankChoice::kBoth && effect.family != find_family("unnamed_crossed_order");
+    if (of_a_flank || effect.family->local || effect.needs().along_profile ||
+        (effect.family->displacement_mm && effect.order() == 0.0))
       continue;
     if (const int order = static_cast<int>(effect.order()); order > 0) {
       waves.push_back(e);
@@ -304,6 +312,9 @@ bool tell_as_swellings_at_end(PartModel& model) {
     std::vector<std::size_t> these;
     for (const std::size_t e : waves)
       if (std::remainder(model.effects[e].order(), double(number)) == 0.0) these.push_back(e);
+    for (const std::size_t e : others)  // more of them, as pieces
+      if (std::remainder(model.effects[e].shape[0], double(number)) == 0.0) these.push_back(e);
+    std::sort(these.begin(), these.end());
     if (number == 1 && these.size() < kFewestOfOne) continue;
     std::vector<std::size_t> all = these;
     all.insert(all.end(), feet.begin(), feet.end());
