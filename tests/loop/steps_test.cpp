@@ -30,11 +30,12 @@ double told_edge_mm(const loop::LoopResult& result) {
              ? std::stod(found[1])
              : 0.0;
 }
-void expect_step(const loop::LoopResult& result, const std::string& words, std::size_t effects) {
+void expect_step(const loop::LoopResult& result, const std::string& words, std::size_t effects,
+                 loop::Verdict verdict = loop::Verdict::kExplained) {
   EXPECT_TRUE(tells_of(result, "a step over")) << list(result);
   EXPECT_TRUE(tells_of(result, words)) << list(result);
   EXPECT_EQ(result.effects.size(), effects) << list(result);
-  EXPECT_NE(result.verdict, loop::Verdict::kNoEffect) << list(result);
+  EXPECT_EQ(result.verdict, verdict) << list(result);
 }
 
 TEST(SoftStep, OfScansIsOneFormWithTheLengthOfItsEdge) {
@@ -60,7 +61,10 @@ TEST(SoftStep, OfTracesIsOneForm) {
     for (const std::vector<int>& teeth : {few, all}) {
       const auto result = close(gear, inspection_of(gear, {stepped(4.0, 0.3, 0.3, true, course)},
                                                     traced(teeth, 0.5, 22)));
-      expect_step(result, "opposite on the two flanks", 1);
+      // The corners of a ramp are seen where all teeth show them, and said to be left.
+      expect_step(result, "opposite on the two flanks", 1,
+                  course == ramp && teeth.empty() ? loop::Verdict::kPartlyExplained
+                                                  : loop::Verdict::kExplained);
       EXPECT_NEAR(parameter(result.effects[0], "amplitude_um").value, 4.0, 0.2) << list(result);
     }
 }

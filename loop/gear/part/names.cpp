@@ -107,34 +107,43 @@ void tell_names_in_two_parts(PartModel& model) {
         break;
 }
 
+std::vector<Effect> with_best_name(const PartModel& model, double below, Names which) {
+  std::vector<Effect> best;
+  for (std::size_t c = 0; c < model.candidates.size(); ++c) {
+    const Effect& name = model.candidates[c];
+    if (model.unseen[c] || !is_name_of_all_teeth(name) || !name.shape.empty() ||
+        (which == Names::kOfBothFlanks && name.flank != FlankChoice::kBoth) ||
+        std::find(model.effects.begin(), model.effects.end(), name) != model.effects.end())
+      continue;
+    std::vector<Effect> with = model.effects;
+    with.push_back(name);
+    const auto fit = fit_of(model, with);
+    if (!(fit->residual_square() < below) ||
+        !(fit->retained(fit->first_column(static_cast<int>(with.size()) - 1)) >= kToldApart) ||
+        !is_possible(model.geometry, *fit, static_cast<int>(with.size()) - 1))
+      continue;
+    below = fit->residual_square();
+    best = std::move(with);
+  }
+  return best;
+}
+
+void add_name(PartModel& model, std::vector<Effect> with) {
+  ChosenGroup record;
+  record.group = -1;
+  record.p_value = std::exp(-minus_log_chi_square_tail(
+      fit_of(model, model.effects)->residual_square() - fit_of(model, with)->residual_square(), 1));
+  model.effects = std::move(with);
+  model.discovery.chosen.push_back(record);
+}
+
 void add_names(PartModel& model, int most_values) {
   constexpr double kClearly = 20.0;  // chi-square
   while (values_of(model.effects, true) < most_values) {
     const double now = fit_of(model, model.effects)->residual_square();
-    std::vector<Effect> best;
-    double least = now - kClearly;
-    for (std::size_t c = 0; c < model.candidates.size(); ++c) {
-      const Effect& name = model.candidates[c];
-      if (model.unseen[c] || !is_name_of_all_teeth(name) || !name.shape.empty() ||
-          name.flank != FlankChoice::kBoth ||
-          std::find(model.effects.begin(), model.effects.end(), name) != model.effects.end())
-        continue;
-      std::vector<Effect> with = model.effects;
-      with.push_back(name);
-      const auto fit = fit_of(model, with);
-      if (!(fit->residual_square() < least) ||
-          !(fit->retained(fit->first_column(static_cast<int>(with.size()) - 1)) >= kToldApart) ||
-          !is_possible(model.geometry, *fit, static_cast<int>(with.size()) - 1))
-        continue;
-      least = fit->residual_square();
-      best = std::move(with);
-    }
-    if (best.empty()) return;
-    ChosenGroup record;
-    record.group = -1;
-    record.p_value = std::exp(-minus_log_chi_square_tail(now - least, 1));
-    model.effects = std::move(best);
-    model.discovery.chosen.push_back(record);
+    std::vector<Effect> with = with_best_name(model, now - kClearly, Names::kOfBothFlanks);
+    if (with.empty()) return;
+    add_name(model, std::move(with));
   }
 }
 

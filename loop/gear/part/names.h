@@ -12,6 +12,12 @@ void tell_one_flank_as_two_names_of_all(PartModel& model);
 /// Two forms without a name, each of teeth that the other leaves alone, and together as good as a
 /// name: they are that name and one of them, the smaller, if that is anything beside it.
 void tell_names_in_two_parts(PartModel& model);
+enum class Names { kOfBothFlanks, kOfEitherToo };
+/// The answer with a name more, the last: of all teeth, without a place, told apart and possible,
+/// the one that leaves least, and less than `below` of chi-square. Empty: none does.
+[[nodiscard]] std::vector<Effect> with_best_name(const PartModel& model, double below, Names which);
+/// Takes it over.
+void add_name(PartModel& model, std::vector<Effect> with);
 /// Names of all teeth that the choice passed over, as small beside the others as they are, where
 /// each takes out clearly more than chance: up to so many values.
 void add_names(PartModel& model, int most_values);

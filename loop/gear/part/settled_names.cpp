@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/gear/part/flank_courses.h"
 #include "trueflank/loop/gear/part/flank_fields.h"
+#include "trueflank/loop/gear/part/names.h"
 #include "trueflank/loop/gear/part/names_beside_forms.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/runs_along.h"
@@ -283,27 +283,11 @@ bool name_what_is_left(PartModel& model) {
     return fit_of(model, effects)->errors(std::vector<bool>(effects.size(), true)).held_out_rms_um;
   };
   const double now = fit_of(model, model.effects)->residual_square();
-  std::vector<Effect> best;
-  double least = now - kBeyondDoubt;
-  for (std::size_t c = 0; c < model.candidates.size(); ++c) {
-    const Effect& name = model.candidates[c];
-    if (model.unseen[c] || !is_name_of_all_teeth(name) || !name.shape.empty() ||
-        std::find(model.effects.begin(), model.effects.end(), name) != model.effects.end())
-      continue;
-    std::vector<Effect> with = model.effects;
-    with.push_back(name);
-    const auto fit = fit_of(model, with);
-    if (fit->residual_square() > least ||
-        fit->retained(fit->first_column(static_cast<int>(with.size()) - 1)) < kToldApart)
-      continue;
-    least = fit->residual_square();
-    best = std::move(with);
-  }
+  std::vector<Effect> best = with_best_name(model, now - kBeyondDoubt, Names::kOfEitherToo);
   if (best.empty() || !is_settled(model, *fit_of(model, best), best.size() - 1) ||
       held_out_um(best) > held_out_um(model.effects))
     return false;
-  put_in_place_of(model, {}, best);
-  model.discovery.chosen.back().p_value = std::exp(-minus_log_chi_square_tail(now - least, 1));
+  add_name(model, std::move(best));
   return true;
 }
 
