@@ -402,23 +402,30 @@ TEST_F(TrialFitsOfTraces, FormsTimesFactorsOfTeethAreTriedAsTheWholeFitDoes) {
 }
 
 TEST_F(TrialFitsOfTraces, ADriftThatOnlyTheirZerosKnowTakesNothing) {
-  InspectionOptions options;
-  for (int tooth = 1; tooth <= gear_.teeth; ++tooth) options.teeth.push_back(tooth);
-  options.points = 30;
-  options.index = false;
-  loop::MeasuredData data;
-  data.inspections.push_back(inspection_of(gear_, {off_centre(6.0, 30.0)}, options));
-  const loop::Observations table = *make_observations(geometry_, data, {});
-  const loop::Patches patches = make_patches(geometry_, table);
-  const loop::TrialFit fit(geometry_, table, patches, {of("unnamed_ramp", {4, 0, 1, 0})});
-  const auto trials = fit.with_shapes(0, {{4, 0, 0, 0}, {9, 0, 0, 1}, {9, 0, 1, 0}}, 1e300);
-  const double nothing = loop::PointFit(geometry_, table, patches, {}).residual_square();
-  for (const std::size_t i : {0U, 1U}) {
-    EXPECT_NEAR(trials[i].square / nothing, 1.0, 1e-12);
-    EXPECT_EQ(trials[i].retained, 0.0);
+  for (const int points : {30, 37, 53}) {
+    InspectionOptions options;
+    for (int tooth = 1; tooth <= gear_.teeth; ++tooth) options.teeth.push_back(tooth);
+    options.points = points;
+    options.index = false;
+    loop::MeasuredData data;
+    data.inspections.push_back(inspection_of(gear_, {off_centre(6.0, 30.0)}, options));
+    const loop::Observations table = *make_observations(geometry_, data, {});
+    const loop::Patches patches = make_patches(geometry_, table);
+    const loop::TrialFit fit(geometry_, table, patches,
+                             {of("unnamed_levelling", {4, 0, 1, 0, 0, 5.0, 0})});
+    std::vector<loop::EffectShape> shapes{{9, 0, 1, 0, 0, 5.0, 0}};
+    for (int first = 1; first <= gear_.teeth; ++first)
+      for (const double opposite : {0.0, 1.0})
+        shapes.push_back({double(first), 0, 0, opposite, 0, 3.0, 0});
+    const auto trials = fit.with_shapes(0, shapes, 1e300);
+    const double nothing = loop::PointFit(geometry_, table, patches, {}).residual_square();
+    EXPECT_LT(trials[0].square, nothing);
+    EXPECT_GT(trials[0].retained, 0.1);
+    for (std::size_t i = 1; i < trials.size(); ++i) {
+      EXPECT_NEAR(trials[i].square / nothing, 1.0, 1e-12);
+      EXPECT_EQ(trials[i].retained, 0.0);
+    }
   }
-  EXPECT_LT(trials[2].square, nothing);
-  EXPECT_GT(trials[2].retained, 0.1);
 }
 
 TEST_F(TrialFitsOfTraces, FindTheLengthOfTheirWaves) {
