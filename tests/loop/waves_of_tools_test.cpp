@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
+#include <vector>
 
 #include "tests/loop/made_gears.h"
 
@@ -24,27 +26,32 @@ double wave(const MadeGear& g, const FlankSpot& s, double length_mm, double phas
 // traces say that there is none.
 TEST(WavesOfTools, OnTracesOfAHelicalGearAreNoMachinesOrder) {
   const MadeGear gear = helical(42, -26.0);
-  const auto result =
-      close(gear, inspection_of(gear, {grown([](const MadeGear& g, const FlankSpot& s, auto&) {
-                                  return 2.0 * wave(g, s, base_pitch_mm(g), 2.1);
-                                })},
-                                traced({1, 11, 22, 32}, 0.25, 41)));
-  ASSERT_EQ(result.effects.size(), 1U) << list(result);
-  EXPECT_TRUE(tells_of(result, "waves over the profile")) << list(result);
-  EXPECT_TRUE(tells_of(result, "mirrored on the two flanks")) << list(result);
+  for (const double phase_rad : {2.1, 1.07, 0.3}) {
+    const auto made = [=](const MadeGear& g, const FlankSpot& s, auto&) {
+      return 2.0 * wave(g, s, base_pitch_mm(g), phase_rad);
+    };
+    const auto result =
+        close(gear, inspection_of(gear, {grown(made)}, traced({1, 11, 22, 32}, 0.25, 41)));
+    ASSERT_EQ(result.effects.size(), 1U) << list(result);
+    EXPECT_TRUE(tells_of(result, "waves over the profile")) << list(result);
+    EXPECT_TRUE(tells_of(result, "mirrored on the two flanks")) << list(result);
+  }
 }
 
 TEST(WavesOfTools, OfTheOrderOfTheTeethOnProfilesAloneAreNoMachinesOrder) {
-  const MadeGear gear = spur(49);
-  InspectionOptions options = traced({1, 9, 17, 25, 33, 41}, 1.0, 42);
-  options.helix = false;
-  const auto result =
-      close(gear, inspection_of(gear, {grown([](const MadeGear& g, const FlankSpot& s, auto&) {
-                                  return 6.0 * wave(g, s, base_pitch_mm(g), -2.4);
-                                })},
-                                options));
-  ASSERT_EQ(result.effects.size(), 1U) << list(result);
-  EXPECT_TRUE(tells_of(result, "mirrored on the two flanks")) << list(result);
+  for (const auto& [z, teeth, phase_rad] :
+       {std::tuple{49, std::vector<int>{1, 9, 17, 25, 33, 41}, -2.4},
+        std::tuple{79, std::vector<int>{1, 27, 53}, -0.29}}) {
+    const MadeGear gear = spur(z);
+    InspectionOptions options = traced(teeth, 1.0, 42);
+    options.helix = false;
+    const auto made = [phase = phase_rad](const MadeGear& g, const FlankSpot& s, auto&) {
+      return 6.0 * wave(g, s, base_pitch_mm(g), phase);
+    };
+    const auto result = close(gear, inspection_of(gear, {grown(made)}, options));
+    ASSERT_EQ(result.effects.size(), 1U) << list(result);
+    EXPECT_TRUE(tells_of(result, "mirrored on the two flanks")) << list(result);
+  }
 }
 
 // The relief beside it has its name and its size.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/gear/part/names_beside_forms.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/runs_along.h"
 #include "trueflank/loop/gear/possible_effects.h"
@@ -108,13 +109,19 @@ void tell_names_in_two_parts(PartModel& model) {
 }
 
 std::vector<Effect> with_best_name(const PartModel& model, double below, Names which) {
-  std::vector<Effect> best;
+  constexpr double kTie = 0.01;  // chi-square: of names that say the same the usual one
+  std::vector<Effect> names, best;
   for (std::size_t c = 0; c < model.candidates.size(); ++c) {
     const Effect& name = model.candidates[c];
-    if (model.unseen[c] || !is_name_of_all_teeth(name) || !name.shape.empty() ||
-        (which == Names::kOfBothFlanks && name.flank != FlankChoice::kBoth) ||
-        std::find(model.effects.begin(), model.effects.end(), name) != model.effects.end())
-      continue;
+    if (!model.unseen[c] && is_name_of_all_teeth(name) && name.shape.empty() &&
+        (which == Names::kOfEitherToo || name.flank == FlankChoice::kBoth) &&
+        std::find(model.effects.begin(), model.effects.end(), name) == model.effects.end())
+      names.push_back(name);
+  }
+  std::stable_sort(names.begin(), names.end(), [&](const Effect& a, const Effect& b) {
+    return preference_of(model, a) < preference_of(model, b);
+  });
+  for (const Effect& name : names) {
     std::vector<Effect> with = model.effects;
     with.push_back(name);
     const auto fit = fit_of(model, with);
@@ -122,7 +129,7 @@ std::vector<Effect> with_best_name(const PartModel& model, double below, Names w
         !(fit->retained(fit->first_column(static_cast<int>(with.size()) - 1)) >= kToldApart) ||
         !is_possible(model.geometry, *fit, static_cast<int>(with.size()) - 1))
       continue;
-    below = fit->residual_square();
+    below = fit->residual_square() - kTie;
     best = std::move(with);
   }
   return best;
