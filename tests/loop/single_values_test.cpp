@@ -174,6 +174,23 @@ TEST(SingleValues, AToothThatBothFlanksShowIsNamedBesideTraces) {
   EXPECT_LE(others, 1);
 }
 
+// One flank of a tooth is found where its value is the larger one; what the tails of that flank
+// leave open is asked with the other flank's value. (Of sixty draws one needs it: this.)
+TEST(SingleValues, AToothIsThatOfBothFlanksWhereOneAloneIsNotSure) {
+  InspectionOptions options;
+  options.teeth = {1, 18, 36};
+  options.points = 30;
+  options.noise_um = 0.2;
+  options.seed = 24;
+  loop::InspectionData data = inspection_of(spur(52), {}, options);
+  for (loop::InspectionRow& row : data.rows)
+    if (row.tooth == 38)
+      row.deviation_um += (row.flank == Flank::kLeft ? 7.5 : 4.0) * options.noise_um;
+  const auto result = close(spur(52), data);
+  ASSERT_EQ(result.effects.size(), 1U) << list(result);
+  EXPECT_EQ(result.effects[0].id, "single_tooth") << list(result);
+}
+
 /// An index with white noise of 1 um, so many times as loud on every fifth tooth.
 loop::InspectionData index_with(const MadeGear& gear, unsigned seed, double every_fifth = 1.0) {
   InspectionOptions options;

@@ -223,6 +223,9 @@ bool adopt_from_single_values(PartModel& model, const PartModel& alone, std::vec
   return adopt(model, more, p_values) || adopt(model, without_slopes, p_values);
 }
 
+/// A tooth that stands out less surely than this is none.
+constexpr double kToothByChance = 0.01;
+
 /// How likely one value is as far out as this one, whose like are `others`: by their tail, or among
 /// them.
 double chance_of_value(double size, const std::vector<double>& others) {
@@ -395,6 +398,29 @@ std::vector<double> heights_of_single_values(const Observations& table, const Ef
   return heights;
 }
 
+/// Takes a tooth that one flank's values do not bear out as one that stands on both flanks, where
+/// the values of both bear that out.
+bool take_tooth_of_both_flanks(PartModel& model, std::size_t e) {
+  const Effect one = model.effects[e];
+  const Effect both{find_family("single_tooth"), FlankChoice::kBoth, one.shape};
+  if (one.family != find_family("unnamed_flank") ||
+      std::find(model.candidates.begin(), model.candidates.end(), both) == model.candidates.end())
+    return false;
+  Effect other = one;
+  other.flank = one.flank == FlankChoice::kLeft ? FlankChoice::kRight : FlankChoice::kLeft;
+  std::vector<Effect> without = model.effects;
+  std::erase(without, one);
+  std::erase(without, other);
+  const auto left_um = PointFit(model.geometry, model.table, model.patches, without).residuals_um();
+  if (chance_of_tooth(model.table, both, model.geometry, *left_um) > kToothByChance) return false;
+  model.effects[e] = both;
+  const auto there = std::find(model.effects.begin(), model.effects.end(), other);
+  if (there != model.effects.end())
+    remove_effect(model, static_cast<std::size_t>(there - model.effects.begin()));
+  forget_fits(model);
+  return true;
+}
+
 /// The named effects as people read them.
 std::vector<FoundEffect> told(const PartModel& model) {
   const auto fit = fit_of(model, model.effects);
@@ -455,7 +481,6 @@ void hold_to_single_values(PartModel& model) {
 }
 
 void drop_teeth_within_the_tails(PartModel& model) {
-  constexpr double kByChance = 0.01;
   if (std::none_of(model.table->rows.begin(), model.table->rows.end(), is_one_a_tooth)) return;
   for (std::size_t e = model.effects.size(); e-- > model.options.given.size();) {
     if (!model.effects[e].family->local || model.effects[e].columns() != 1) continue;
@@ -467,8 +492,8 @@ void drop_teeth_within_the_tails(PartModel& model) {
     const std::vector<double> heights =
         heights_of_single_values(model.table, model.effects[e], model.geometry, after_um);
     if (heights.empty()) continue;
-    if (chance_of_tooth(model.table, model.effects[e], model.geometry, after_um) > kByChance) {
-      remove_effect(model, e);
+    if (chance_of_tooth(model.table, model.effects[e], model.geometry, after_um) > kToothByChance) {
+      if (!take_tooth_of_both_flanks(model, e)) remove_effect(model, e);
       continue;
     }
     std::vector<double> along, single;
@@ -492,7 +517,7 @@ void drop_teeth_within_the_tails(PartModel& model) {
       expected *= share_further(heights[0]) * share_further(heights[1]);
     else
       expected *= share_further(*std::max_element(heights.begin(), heights.end()));
-    if (expected > kByChance) remove_effect(model, e);
+    if (expected > kToothByChance) remove_effect(model, e);
   }
 }
 
