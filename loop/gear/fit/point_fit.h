@@ -83,8 +83,14 @@ class PointFit {
 
  private:
   void keep_features(Known known);
-  [[nodiscard]] bool take_features(const Effect& effect, const std::vector<std::uint32_t>& rows,
-                                   int first_column, Known known);
+  /// Columns beside each other that another fit keeps.
+  struct KeptColumns {
+    const double* from = nullptr;  ///< in its first row
+    std::size_t width = 0;         ///< of its rows
+    int to = 0, count = 0;
+  };
+  [[nodiscard]] bool is_in_known(std::size_t effect, Known known,
+                                 std::vector<KeptColumns>& taken) const;
   void features(std::size_t row, double* values, std::size_t effects) const;
   void features_at(const Place& place, const Observation& row, double* values,
                    std::size_t effects) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "trueflank/loop/gear/fit/point_fit.h"
@@ -34,36 +35,44 @@ void PointFit::keep_features(Known known) {
       nuisance_.add(table_.places[row.first_place + k], row.kind, row.source, row.weight, values);
     values[columns_] = row.deviation_um;
   }
-  const AlikeRows alike = alike_rows(table_, rows);
+  std::vector<KeptColumns> taken;
+  std::optional<AlikeRows> alike;
   for (std::size_t e = 0; e < effects_.size(); ++e) {
     const Effect& effect = effects_[e];
-    if (take_features(effect, rows, first_column_[e], known)) continue;
+    if (is_in_known(e, known, taken)) continue;
     double* const column = kept_.data() + first_column_[e];
     if (!effect.family->same_on_every_tooth || !effect.family->same_on_every_tooth(effect.shape)) {
       for (const std::uint32_t i : rows) add(effect, i, column + i * width);
       continue;
     }
-    for (const std::uint32_t i : alike.first) add(effect, i, column + i * width);
+    if (!alike) alike = alike_rows(table_, rows);
+    for (const std::uint32_t i : alike->first) add(effect, i, column + i * width);
     for (std::size_t r = 0; r < rows.size(); ++r)
-      if (const std::uint32_t first = alike.first[alike.kind[r]]; first != rows[r])
+      if (const std::uint32_t first = alike->first[alike->kind[r]]; first != rows[r])
         std::copy_n(column + first * width, effect.columns(), column + rows[r] * width);
   }
+  for (const std::uint32_t i : rows)
+    for (const KeptColumns& columns : taken)
+      std::copy_n(columns.from + i * columns.width, columns.count,
+                  kept_.data() + i * width + columns.to);
 }
 
-/// From a fit that has them; false where none has.
-bool PointFit::take_features(const Effect& effect, const std::vector<std::uint32_t>& rows,
-                             int first_column, Known known) {
+/// Whether a fit has the columns of an effect, and where; those beside the last ones go with them.
+bool PointFit::is_in_known(std::size_t e, Known known, std::vector<KeptColumns>& taken) const {
   for (const auto& fit : known) {
-    const auto found = std::find(fit->effects_.begin(), fit->effects_.end(), effect);
+    const auto found = std::find(fit->effects_.begin(), fit->effects_.end(), effects_[e]);
     if (found == fit->effects_.end() || fit->kept_.empty() || fit->stride_ != stride_) continue;
-    const auto width = static_cast<std::size_t>(columns_) + 1,
-               other_width = static_cast<std::size_t>(fit->columns_) + 1;
-    const double* const from =
-        fit->kept_.data() +
-        fit->first_column_[static_cast<std::size_t>(found - fit->effects_.begin())];
-    double* const to = kept_.data() + first_column;
-    for (const std::uint32_t i : rows)
-      std::copy_n(from + i * other_width, effect.columns(), to + i * width);
+    const KeptColumns columns{
+        .from = fit->kept_.data() +
+                fit->first_column_[static_cast<std::size_t>(found - fit->effects_.begin())],
+        .width = static_cast<std::size_t>(fit->columns_) + 1,
+        .to = first_column_[e],
+        .count = effects_[e].columns()};
+    if (!taken.empty() && taken.back().from + taken.back().count == columns.from &&
+        taken.back().to + taken.back().count == columns.to)
+      taken.back().count += columns.count;
+    else
+      taken.push_back(columns);
     return true;
   }
   return false;

@@ -89,7 +89,7 @@ void TrialFit::find_alike(FlankCells cells) {
   const bool scan = !table_.points_mm.empty();
   if (scan && cells.profile == 0) return;
   AlikeRows alike = scan ? rows_of_cells(geometry_, table_, all_rows_.rows, cells)
-                         : alike_rows(table_, all_rows_.rows);
+                         : *shared_.values().alike(table_, all_rows_.rows, all_rows_.key);
   if (alike.first.size() * kFewestOfAKind > rows_.size()) return;
   kind_weight_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(alike.first.size()));
   for (std::size_t i = 0; i < rows_.size(); ++i)

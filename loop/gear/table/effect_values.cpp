@@ -50,4 +50,20 @@ void EffectValues::keep(const Effect& effect, std::uint64_t rows, Values values)
   kept_.emplace(loop::key_of(effect, rows), Kept{effect, rows, std::move(values)});
 }
 
+std::shared_ptr<const AlikeRows> EffectValues::alike(const Observations& table,
+                                                     const std::vector<std::uint32_t>& rows,
+                                                     std::uint64_t key) {
+  constexpr std::size_t kMost = 4;
+  {
+    const std::scoped_lock lock(mutex_);
+    for (const auto& [of_rows, kept] : alike_)
+      if (of_rows == key) return kept;
+  }
+  auto found = std::make_shared<const AlikeRows>(alike_rows(table, rows));
+  const std::scoped_lock lock(mutex_);
+  if (alike_.size() == kMost) alike_.erase(alike_.begin());
+  alike_.emplace_back(key, found);
+  return found;
+}
+
 }  // namespace trueflank::loop

@@ -7,9 +7,11 @@
 #include <memory>
 #include <mutex>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "trueflank/loop/gear/effect.h"
+#include "trueflank/loop/gear/table/alike_rows.h"
 
 namespace trueflank::loop {
 
@@ -26,6 +28,10 @@ class EffectValues {
   /// Empty: not kept. `rows`: their key.
   [[nodiscard]] Values find(const Effect& effect, std::uint64_t rows) const;
   void keep(const Effect& effect, std::uint64_t rows, Values values);
+  /// Rows of traces that differ by the tooth alone. `key`: of these rows.
+  [[nodiscard]] std::shared_ptr<const AlikeRows> alike(const Observations& table,
+                                                       const std::vector<std::uint32_t>& rows,
+                                                       std::uint64_t key);
 
  private:
   struct Kept {
@@ -36,6 +42,8 @@ class EffectValues {
   mutable std::mutex mutex_;
   std::unordered_multimap<std::uint64_t, Kept> kept_;
   Eigen::Index count_ = 0;  ///< of all values
+  /// By the key of the rows; the last ones that were asked for.
+  std::vector<std::pair<std::uint64_t, std::shared_ptr<const AlikeRows>>> alike_;
 };
 
 }  // namespace trueflank::loop
