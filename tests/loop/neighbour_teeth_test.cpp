@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+
 #include "tests/loop/made_gears.h"
 
 // What stands over a few neighbouring teeth and is no wave.
@@ -38,6 +41,35 @@ TEST(NeighbourTeeth, OneToothAloneIsNoMatterOfNeighbours) {
   const auto result = close(gear, scan_of(gear, {one}, {.points = 8000, .noise_um = 4.0}), true);
   EXPECT_NE(find(result, "single_tooth"), nullptr) << list(result);
   EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << result.structure_left;
+}
+
+/// Teeth 12 to 14 as a knock leaves them: out on both flanks, or aside.
+Process knocked(double um, bool aside) {
+  return grown([=](const MadeGear&, const FlankSpot& s, const Vec3&) {
+    const double share = s.tooth == 12 ? 0.45 : s.tooth == 13 ? 1.0 : s.tooth == 14 ? 0.6 : 0.0;
+    return um * share * (aside ? s.side : 1);
+  });
+}
+
+// A swelling has as many values as three teeth, and says less of them.
+TEST(NeighbourTeeth, ThreeThatAKnockLeftUnequalAreEachTold) {
+  for (const bool aside : {true, false})
+    for (const double um : {12.0, -22.0}) {
+      const MadeGear gear = spur(31);
+      const auto result =
+          close(gear, scan_of(gear, {knocked(um, aside)}, scanned(8000, 1.1, 5)), true);
+      EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << result.structure_left;
+      ASSERT_EQ(result.effects.size(), 3U) << list(result);
+      for (const auto& effect : result.effects) {
+        const auto is_of = [&](const char* tooth) {
+          return effect.description.find(tooth) != std::string::npos;
+        };
+        const double share = is_of("tooth 12") ? 0.45 : is_of("tooth 13") ? 1.0 : 0.6;
+        EXPECT_NEAR(std::abs(effect.terms.at(0).cos), share * std::abs(um), 0.6) << list(result);
+        EXPECT_EQ(effect.description.find("aside") != std::string::npos, aside)
+            << effect.description;
+      }
+    }
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/parts_of_forms.h"
 #include "trueflank/loop/gear/part/runs_along.h"
+#include "trueflank/loop/gear/part/single_teeth.h"
 
 namespace trueflank::loop {
 namespace {
@@ -322,7 +323,8 @@ RunOfTeeth longest_run(const std::vector<std::pair<int, std::size_t>>& teeth, in
   return best;
 }
 
-/// The swelling or sector that says best what some single teeth say, if it leaves little of it.
+/// The swelling or sector that says best what some single teeth say, if it leaves little of it;
+/// where the teeth leave nothing that others share, if it costs no more.
 std::optional<Effect> form_of_teeth(const PartModel& model, const std::vector<Effect>& rest,
                                     FlankChoice flank, int first, int count) {
   constexpr double kNearly = 0.1;
@@ -345,8 +347,12 @@ std::optional<Effect> form_of_teeth(const PartModel& model, const std::vector<Ef
     least = left;
     best = i;
   }
+  with.back() = tried[best];
   const double all = fit_of(model, model.effects)->residual_square();
-  if (least > all + kNearly * (fit_of(model, rest)->residual_square() - all)) return {};
+  if (least > all + kNearly * (fit_of(model, rest)->residual_square() - all) ||
+      (cost_of(model, with) > cost_of(model, model.effects) &&
+       !is_shared(model, shared_beside(model, model.effects))))
+    return {};
   return tried[best];
 }
 

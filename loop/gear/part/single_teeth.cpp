@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/gear/part/choice.h"
@@ -12,7 +15,6 @@
 #include "trueflank/loop/gear/part/records.h"
 
 namespace trueflank::loop {
-
 void look_at_single_teeth(PartModel& model) {
   std::vector<Effect> local;
   for (const Effect& effect : model.candidates) {
@@ -90,28 +92,36 @@ void look_at_neighbours(PartModel& model) {
   std::vector<Effect> common;
   for (const Effect& effect : model.effects)
     if (!effect.family->local) common.push_back(effect);
-  const auto shared_without = [&](const std::vector<Effect>& effects) {
-    return shared_by_neighbours(model.geometry, model.patches,
-                                *fit_of(model, effects)->residuals_um());
-  };
-  model.neighbours = shared_without(common);
+  model.neighbours = shared_beside(model, common);
   if (common.size() == model.effects.size()) return;
-  if (!neighbours_share(model)) {
-    model.neighbours = shared_without(model.effects);
+  SharedByNeighbours beside_all = shared_beside(model, model.effects);
+  const int z = model.geometry.teeth();
+  const auto is_of_them = [&](const Effect& effect) {
+    if (!effect.family->local) return false;
+    const int off = std::abs(static_cast<int>(effect.shape[0]) - model.neighbours.tooth);
+    return std::min(off, z - off) <= 1;
+  };
+  // Teeth side by side that leave nothing shared say what it is.
+  std::set<double> teeth;
+  for (const Effect& effect : model.effects)
+    if (is_of_them(effect)) teeth.insert(effect.shape[0]);
+  if (!neighbours_share(model) || (teeth.size() > 1 && !is_shared(model, beside_all))) {
+    model.neighbours = std::move(beside_all);
     return;
   }
-  const int z = model.geometry.teeth();
-  for (std::size_t e = model.effects.size(); e-- > model.options.given.size();) {
-    if (!model.effects[e].family->local) continue;
-    const int off = std::abs(static_cast<int>(model.effects[e].shape[0]) - model.neighbours.tooth);
-    if (std::min(off, z - off) > 1) continue;
-    model.effects.erase(model.effects.begin() + static_cast<std::ptrdiff_t>(e));
-    model.discovery.chosen.erase(model.discovery.chosen.begin() + static_cast<std::ptrdiff_t>(e));
-  }
+  for (std::size_t e = model.effects.size(); e-- > model.options.given.size();)
+    if (is_of_them(model.effects[e])) remove_effect(model, e);
 }
 
-bool neighbours_share(const PartModel& model) {
-  return model.neighbours.p_value <= 0.002 / model.options.tables;
+SharedByNeighbours shared_beside(const PartModel& model, const std::vector<Effect>& effects) {
+  return shared_by_neighbours(model.geometry, model.patches,
+                              *fit_of(model, effects)->residuals_um());
 }
+
+bool is_shared(const PartModel& model, const SharedByNeighbours& shared) {
+  return shared.p_value <= 0.002 / model.options.tables;
+}
+
+bool neighbours_share(const PartModel& model) { return is_shared(model, model.neighbours); }
 
 }  // namespace trueflank::loop

@@ -13,6 +13,10 @@ void look_at_sizes(PartModel& model);
 /// What stands over a few teeth is no wave: many small terms, none of which is found by itself. Nor
 /// is it a single tooth where the teeth beside it share it.
 void look_at_neighbours(PartModel& model);
+/// What neighbouring teeth share of what effects leave, and whether that is more than chance.
+[[nodiscard]] SharedByNeighbours shared_beside(const PartModel& model,
+                                               const std::vector<Effect>& effects);
+[[nodiscard]] bool is_shared(const PartModel& model, const SharedByNeighbours& shared);
 /// True where neighbouring teeth share what the effects leave, beyond chance.
 [[nodiscard]] bool neighbours_share(const PartModel& model);
 

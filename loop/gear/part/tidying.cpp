@@ -47,6 +47,37 @@ bool are_two_flanks_of_one(const Effect& a, const Effect& b) {
   return true;
 }
 
+/// A tooth on both flanks with one of its flanks beside it: as its two flanks, which say the same.
+void tell_as_two_flanks(Effect& a, Effect& b) {
+  const auto is_flank = [](const Effect& e) { return e.family == find_family("unnamed_flank"); };
+  const Effect& one = is_flank(a) ? a : b;
+  Effect& both = is_flank(a) ? b : a;
+  if (!is_flank(one) || is_flank(both) || !both.family->local || both.columns() != 1 ||
+      both.flank != FlankChoice::kBoth || both.shape[0] != one.shape[0])
+    return;
+  both = one;
+  both.flank = one.flank == FlankChoice::kLeft ? FlankChoice::kRight : FlankChoice::kLeft;
+}
+
+/// Of what one tooth has, goes what the others say without it: it stood for them before they were
+/// found.
+void drop_idle_of_a_tooth(PartModel& model) {
+  constexpr double kNothing = 9.0;  // chi-square
+  const auto is_of_a_tooth = [](const Effect& e) { return e.family->local && e.columns() == 1; };
+  for (std::size_t e = model.effects.size(); e-- > model.options.given.size();) {
+    const Effect& idle = model.effects[e];
+    const auto others =
+        std::count_if(model.effects.begin(), model.effects.end(), [&](const Effect& other) {
+          return is_of_a_tooth(other) && other.shape[0] == idle.shape[0];
+        });
+    if (!is_of_a_tooth(idle) || others < 2) continue;
+    std::vector<bool> with(model.effects.size(), true);
+    with[e] = false;
+    const auto fit = fit_of(model, model.effects);
+    if (fit->residual_square(with) - fit->residual_square() < kNothing) remove_effect(model, e);
+  }
+}
+
 /// Makes the whole choice again in another way. It is taken over where it has names alone, so many
 /// values fewer, leaves no more, and nothing is left that a form would say, or far less than
 /// before.
@@ -212,6 +243,7 @@ void drop_doubtful_names(PartModel& model) {
 }
 
 void join_flanks(PartModel& model) {
+  drop_idle_of_a_tooth(model);
   constexpr double kErrors = 3.0, kSameSize = 0.1;
   const auto same_size = [&](const PointFit& fit, std::size_t a, std::size_t b, double sign) {
     for (int k = 0; k < model.effects[a].columns(); ++k) {
@@ -227,6 +259,8 @@ void join_flanks(PartModel& model) {
   };
   for (std::size_t a = model.options.given.size(); a < model.effects.size(); ++a)
     for (std::size_t b = a + 1; b < model.effects.size(); ++b) {
+      const std::array<Effect, 2> before{model.effects[a], model.effects[b]};
+      tell_as_two_flanks(model.effects[a], model.effects[b]);
       const EffectFamily* both = on_both_flanks(*model.effects[a].family);
       if (both == nullptr || !are_two_flanks_of_one(model.effects[a], model.effects[b])) continue;
       const auto fit = fit_of(model, model.effects);
@@ -234,7 +268,11 @@ void join_flanks(PartModel& model) {
                          model.effects[a].shape.size() == 1 && same_size(*fit, a, b, -1.0);
       const bool turned = model.effects[a].family == find_family("unnamed_step") &&
                           model.effects[a].shape[2] == 0.0 && same_size(*fit, a, b, -1.0);
-      if (!aside && !turned && !same_size(*fit, a, b, 1.0)) continue;
+      if (!aside && !turned && !same_size(*fit, a, b, 1.0)) {
+        model.effects[a] = before[0];
+        model.effects[b] = before[1];
+        continue;
+      }
       for (std::size_t k = 0; k < model.effects[a].shape.size(); ++k)
         model.effects[a].shape[k] = 0.5 * (model.effects[a].shape[k] + model.effects[b].shape[k]);
       model.effects[a].family = both;
