@@ -205,9 +205,9 @@ class Describer {
 
   std::string plain_sentence(const FoundEffect& found, int effect) const {
     const EffectFamily& family = *sources_.fit.effects()[effect].family;
-    if (found.named && family.sentence)
-      return family.sentence(sources_.geometry, found) + first_action(family.correction);
-    if (found.named) return found.description + first_action(found.correction);
+    if (found.named)
+      return (family.sentence ? family.sentence(sources_.geometry, found) : found.description) +
+             first_action(found.correction) + once_ruled_out(found.confounded_with);
     // A form of a size or an axis has its amount in percent.
     const bool in_um = std::none_of(
         effect_library().begin(), effect_library().end(), [&](const EffectFamily& named) {

@@ -82,6 +82,18 @@ std::string measurement_between(const std::string& one, const EffectFacts* facts
   return otherwise;
 }
 
+namespace {
+
+/// "scale or tip relief".
+std::string any_of_ids(const std::vector<std::string>& ids) {
+  std::string words;
+  for (const std::string& id : ids) words += (words.empty() ? "" : " or ") + id;
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+}  // namespace
+
 std::string sure_words(double p_value, const std::vector<std::string>& confounded_with) {
   std::string text;
   if (std::isnan(p_value)) {
@@ -100,10 +112,12 @@ std::string sure_words(double p_value, const std::vector<std::string>& confounde
     if (sets < 5.0) text = "a guess: chance alone does this as easily";
   }
   if (confounded_with.empty()) return text;
-  std::string others;
-  for (const std::string& id : confounded_with) others += (others.empty() ? "" : " or ") + id;
-  std::replace(others.begin(), others.end(), '_', ' ');
-  return text + "; the name is open: " + others + " would look the same here";
+  return text + "; the name is open: " + any_of_ids(confounded_with) + " would look the same here";
+}
+
+std::string once_ruled_out(const std::vector<std::string>& confounded_with) {
+  if (confounded_with.empty()) return "";
+  return " once " + any_of_ids(confounded_with) + ", which would look the same here, is ruled out";
 }
 
 void share_out(std::vector<FoundEffect>& effects, const std::vector<double>& mean_squares,

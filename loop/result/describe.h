@@ -43,6 +43,9 @@ void share_out(std::vector<FoundEffect>& effects, const std::vector<double>& mea
                double whole);
 /// "; " and the first thing to do of a correction; empty where there is none.
 [[nodiscard]] std::string first_action(const std::string& correction);
+/// What stands after an action whose effect's name is open: " once scale, which would look the same
+/// here, is ruled out"; empty where it is not.
+[[nodiscard]] std::string once_ruled_out(const std::vector<std::string>& confounded_with);
 /// Pairs of effects that no data told apart, each measurement that would tell once: "measure the index of both
 /// flanks: it tells lobing from pitch_wave".
 class ToldApart {

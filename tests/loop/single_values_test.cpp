@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -189,6 +190,43 @@ TEST(SingleValues, AToothIsThatOfBothFlanksWhereOneAloneIsNotSure) {
   const auto result = close(spur(52), data);
   ASSERT_EQ(result.effects.size(), 1U) << list(result);
   EXPECT_EQ(result.effects[0].id, "single_tooth") << list(result);
+}
+
+/// An index of 19 teeth with an eccentricity and a tooth that stands out on both flanks, as an
+/// outside judge drew it; the tooth after so many others is called the first.
+loop::InspectionData index_from(const MadeGear& gear, int others) {
+  constexpr int kTeeth = 19;
+  constexpr std::array<std::array<double, kTeeth>, 2> kIndex{
+      {{0.000, 0.207, 1.579, 2.316, 2.905, 4.338, 6.405, 6.991, 6.328, 7.136, 6.728, 5.160, 5.425,
+        3.080, 5.739, -0.790, 0.547, 0.167, 0.195},
+       {0.000, -1.687, -1.786, -3.110, -4.776, -5.441, -5.494, -5.784, -5.238, -4.036, -3.552,
+        -1.343, -1.859, -0.531, 5.120, 0.230, 1.892, 0.464, 1.533}}};
+  loop::InspectionData data;
+  for (const Flank flank : {Flank::kLeft, Flank::kRight})
+    for (int k = 0; k < kTeeth; ++k) {
+      const auto& values = kIndex[flank == Flank::kLeft ? 0 : 1];
+      const auto of = [&](int tooth) { return values[static_cast<std::size_t>(tooth % kTeeth)]; };
+      loop::InspectionRow row;
+      row.record = loop::RecordKind::kIndex;
+      row.tooth = k + 1;
+      row.flank = flank;
+      row.diameter_mm = 2.0 * gear.reference();
+      row.z_mm = 0.5 * gear.face_mm;
+      row.deviation_um = of(k + others) - of(others);
+      data.rows.push_back(row);
+    }
+  return data;
+}
+
+TEST(SingleValues, AToothOfFewStandsOutWhicheverOfThemIsTheFirst) {
+  for (const int others : {0, 3, 6, 9, 12, 17}) {
+    const auto result = close(spur(19), index_from(spur(19), others));
+    ASSERT_EQ(result.effects.size(), 2U) << others << ": " << list(result);
+    const auto* tooth = find(result, "single_tooth");
+    ASSERT_NE(tooth, nullptr) << others << ": " << list(result);
+    EXPECT_EQ(parameter(*tooth, "tooth").value, (14 - others + 19) % 19 + 1);
+    EXPECT_NEAR(parameter(*tooth, "amount_um").value, 4.0, 0.7);
+  }
 }
 
 /// An index with white noise of 1 um, so many times as loud on every fifth tooth.

@@ -108,6 +108,39 @@ void tell_names_in_two_parts(PartModel& model) {
         break;
 }
 
+void tell_the_usual_of_equals(PartModel& model) {
+  constexpr double kEqual = 1.0;  // chi-square
+  const auto is_usual_in_place_of = [&](int group, std::size_t e) {
+    const Effect &name = model.candidates[static_cast<std::size_t>(group)],
+                 &told = model.effects[e];
+    if (model.unseen[static_cast<std::size_t>(group)] || !is_name_of_all_teeth(name) ||
+        !name.shape.empty() || name.flank != told.flank || name.columns() != told.columns() ||
+        preference_of(model, name) >= preference_of(model, told) ||
+        std::find(model.effects.begin(), model.effects.end(), name) != model.effects.end())
+      return false;
+    std::vector<Effect> with = model.effects;
+    with[e] = name;
+    const auto fit = fit_of(model, with);
+    return fit->residual_square() <= fit_of(model, model.effects)->residual_square() + kEqual &&
+           fit->retained(fit->first_column(static_cast<int>(e))) >= kToldApart &&
+           is_possible(model.geometry, *fit, static_cast<int>(e));
+  };
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    const int told = model.discovery.chosen[e].group;
+    if (!model.effects[e].family->named || told < 0) continue;
+    const std::vector<int>& like = model.discovery.chosen[e].confounded;
+    const auto usual = std::find_if(like.begin(), like.end(),
+                                    [&](int group) { return is_usual_in_place_of(group, e); });
+    if (usual == like.end()) continue;
+    const int name = *usual;
+    model.effects[e] = model.candidates[static_cast<std::size_t>(name)];
+    std::copy_n(model.effects.begin(), model.options.given.size(), model.options.given.begin());
+    model.discovery.chosen[e].group = name;
+    for (ChosenGroup& record : model.discovery.chosen)
+      std::replace(record.confounded.begin(), record.confounded.end(), name, told);
+  }
+}
+
 std::vector<Effect> with_best_name(const PartModel& model, double below, Names which) {
   constexpr double kTie = 0.01;  // chi-square: of names that say the same the usual one
   std::vector<Effect> names, best;

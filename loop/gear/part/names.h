@@ -12,6 +12,9 @@ void tell_one_flank_as_two_names_of_all(PartModel& model);
 /// Two forms without a name, each of teeth that the other leaves alone, and together as good as a
 /// name: they are that name and one of them, the smaller, if that is anything beside it.
 void tell_names_in_two_parts(PartModel& model);
+/// Of names that say the same beside the others, the usual one is told: a scale and a lean of
+/// traces may be a helix error and another lean.
+void tell_the_usual_of_equals(PartModel& model);
 enum class Names { kOfBothFlanks, kOfEitherToo };
 /// The answer with a name more, the last: of all teeth, without a place, told apart and possible,
 /// the one that leaves least, and less than `below` of chi-square. Empty: none does.

@@ -5,6 +5,7 @@
 #include "trueflank/loop/gear/part/other_starts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -106,6 +107,42 @@ void take_other_start(PartModel& model) {
   model.alone = std::move(model.other_start->alone);
   take_over(model, *model.other_start);
   model.other_start.reset();
+}
+
+void doubt_size_of_flanks(PartModel& model) {
+  constexpr double kNoLoss = 5e-3;  // of the error's square
+  const auto is_size = [](const Effect& e) {
+    return e.family->named && e.family->moves_whole_part;
+  };
+  const auto told = model.effects.begin() + static_cast<std::ptrdiff_t>(first_told_here(model));
+  const auto size = std::find_if(told, model.effects.end(), is_size);
+  if (size == model.effects.end() || model.options.names_only || !model.options.start.empty() ||
+      !model.options.without.empty() || model.table->points_mm.empty() ||
+      std::any_of(model.table->rows.begin(), model.table->rows.end(),
+                  [](const Observation& row) { return row.kind != ObservationKind::kScanFlank; }))
+    return;
+  const bool mended = std::any_of(told, model.effects.end(), [&](const Effect& effect) {
+    return effect.is_term() && effect.order() == 0.0 &&
+           runs_of(model.geometry, effect) == Runs::kOverProfile;
+  });
+  if (!mended && !structure_is_left(model)) return;
+  PartOptions options = model.options;
+  options.given.resize(first_told_here(model));
+  options.without.push_back(size->family);
+  SharedTable measured = model.table;
+  if (measured->is_displaced) undo_displacement(model.geometry, measured.own());
+  PartModel other(model.geometry, std::move(measured), std::move(options));
+  explain_part(other);
+  // (a body that moved has patches, and so weights, of its own: errors are compared, not costs)
+  const auto errors_um = [](const PartModel& one) {
+    return fit_of(one, one.effects)->errors(std::vector<bool>(one.effects.size(), true)).rms_um;
+  };
+  const auto n = static_cast<double>(fit_of(model, model.effects)->observations());
+  const double loss = n * (std::pow(errors_um(other) / errors_um(model), 2) - 1.0);
+  const bool fewer = other.effects.size() < model.effects.size();
+  if (loss > (fewer ? kClearlyLess + kNoLoss * n : -kClearlyLess)) return;
+  model.alone = std::move(other.alone);
+  take_over(model, other);
 }
 
 }  // namespace trueflank::loop

@@ -10,5 +10,9 @@ namespace trueflank::loop {
 [[nodiscard]] bool begins_better(PartModel& model);
 /// The best of other starts where it costs clearly less than what the choice came to by itself.
 void take_other_start(PartModel& model);
+/// The size of a part that nothing but its flanks shows stands for a thickness and a lean in one
+/// ratio. Where forms over the profile mend it, or something is left, the choice is made again
+/// without it, and taken over where that costs clearly less.
+void doubt_size_of_flanks(PartModel& model);
 
 }  // namespace trueflank::loop

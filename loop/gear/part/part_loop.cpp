@@ -7,6 +7,7 @@
 #include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/choice.h"
 #include "trueflank/loop/gear/part/forms_around.h"
+#include "trueflank/loop/gear/part/names.h"
 #include "trueflank/loop/gear/part/one_flank.h"
 #include "trueflank/loop/gear/part/other_starts.h"
 #include "trueflank/loop/gear/part/parts_of_forms.h"
@@ -97,7 +98,9 @@ void explain_part(PartModel& model) {
   if (!scan_for_more) return;
   prefer_names(model);
   prefer_one_name_to_two(model);
+  tell_the_usual_of_equals(model);
   take_other_start(model);
+  doubt_size_of_flanks(model);
   take_form_around(model);
   tell_what_one_flank_has(model);
   name_what_is_settled(model);

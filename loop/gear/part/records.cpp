@@ -254,24 +254,30 @@ double correlation_of_pairs(const std::vector<std::vector<double>>& pairs) {
 }
 
 /// How likely both values of a tooth, one of each flank, stand out by chance together: a wild value
-/// is that of one flank, long tails or not. 1 where the flanks of other teeth share their errors,
-/// or where a tooth has not two values.
+/// is that of one flank, long tails or not. Of the smaller one counts what the larger does not
+/// foretell, as far as flanks of the other teeth may share their errors. 1 where these are opposite
+/// on many teeth, or where a tooth has not two values.
 double chance_of_both_flanks(const std::vector<double>& own_um,
                              const std::vector<std::vector<double>>& others_um) {
-  constexpr double kShared = 0.3, kTests = 2.0;
+  constexpr double kTests = 2.0, kMostShared = 0.95, kOpposite = 0.3, kSeldom = 0.1;
   constexpr std::size_t kFewestTeeth = 12;
   const auto is_pair = [](const std::vector<double>& values) { return values.size() == 2; };
   if (!is_pair(own_um) || others_um.size() < kFewestTeeth ||
-      !std::all_of(others_um.begin(), others_um.end(), is_pair) ||
-      std::abs(correlation_of_pairs(others_um)) > kShared)
+      !std::all_of(others_um.begin(), others_um.end(), is_pair))
     return 1.0;
   std::vector<double> sizes;
   for (const auto& pair : others_um)
     for (const double um : pair) sizes.push_back(std::abs(um));
+  const auto n = static_cast<double>(others_um.size());
+  const double correlation = correlation_of_pairs(others_um);
+  if (correlation < -kOpposite) return 1.0;
+  const double shared = std::clamp(correlation + 1.0 / std::sqrt(n), 0.0, kMostShared);
   const double way = own_um[0] + own_um[1] > 0.0 ? 1.0 : -1.0;
-  double chance = kTests * static_cast<double>(others_um.size() + 1);
-  for (const double um : own_um) chance *= chance_of_value(way * um, sizes);
-  return std::min(1.0, chance);
+  const auto [smaller, larger] = std::minmax({way * own_um[0], way * own_um[1]});
+  const double beside = (smaller - shared * larger) / std::sqrt(1.0 - shared * shared);
+  const double of_smaller = chance_of_value(beside, sizes);
+  if (of_smaller > kSeldom) return 1.0;
+  return std::min(1.0, kTests * (n + 1.0) * chance_of_value(larger, sizes) * of_smaller);
 }
 
 /// What single values say of a form of one tooth, and of the same of every other.

@@ -66,11 +66,12 @@ void drop_idle_of_a_tooth(PartModel& model) {
   const auto is_of_a_tooth = [](const Effect& e) { return e.family->local && e.columns() == 1; };
   for (std::size_t e = model.effects.size(); e-- > model.options.given.size();) {
     const Effect& idle = model.effects[e];
+    if (!is_of_a_tooth(idle)) continue;
     const auto others =
         std::count_if(model.effects.begin(), model.effects.end(), [&](const Effect& other) {
           return is_of_a_tooth(other) && other.shape[0] == idle.shape[0];
         });
-    if (!is_of_a_tooth(idle) || others < 2) continue;
+    if (others < 2) continue;
     std::vector<bool> with(model.effects.size(), true);
     with[e] = false;
     const auto fit = fit_of(model, model.effects);
