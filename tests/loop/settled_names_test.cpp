@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -177,6 +179,41 @@ TEST(SettledNames, ASlopeOfAllFlanksBesideABentAxis) {
                                                 traced({1, 2, 4, 6, 8, 10}, 0.77, 1)));
   expect_size(result, "helix_error", "slope_um", 7.4, 0.6);
   EXPECT_EQ(result.effects.size(), 2U) << list(result);
+}
+
+// In a scan of flanks alone a size of the part is a thickness and a lean in one ratio.
+TEST(SettledNames, ACoatThatIsThinAtTheRootIsNoSizeOfThePart) {
+  for (const auto& [teeth, um, noise_um] : {std::tuple{35, 14.5, 2.2}, {42, 24.0, 4.0}}) {
+    const MadeGear gear = spur(teeth);
+    const double levels_off = teeth == 35 ? 0.3 : 0.23;
+    const auto coat = grown([=](auto&, const FlankSpot& s, auto&) {
+      return um * (1.0 - std::exp(-share_of(s) / levels_off));
+    });
+    const auto result = close(gear, scan_of(gear, {coat}, scanned(6000, noise_um, 4)), true);
+    EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
+    EXPECT_EQ(result.effects.size(), 2U) << list(result);
+    EXPECT_TRUE(tells_of(result, "more and more over the profile towards the root"))
+        << list(result);
+  }
+}
+
+// Together they lean as a part of another size and one more lean would: of names that say the same
+// the usual one is told, and the other with it.
+TEST(SettledNames, ALeadAndALeanOfAHelicalGearAreNoSizeOfThePart) {
+  const MadeGear gear = helical(49, -26.0);
+  const auto made = grown([](auto&, const FlankSpot& s, auto&) {
+    return s.side * 1.4 * s.v + 1.0 * s.u + 2.5 * (1.0 - s.u * s.u);
+  });
+  int named = 0;
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    const auto result = close(gear, inspection_of(gear, {made}, traced({1, 17, 33}, 0.37, seed)));
+    EXPECT_EQ(find(result, "scale"), nullptr) << seed << ": " << list(result);
+    const auto* lead = find(result, "helix_error");
+    if (lead == nullptr) continue;
+    ++named;
+    EXPECT_NE(lead->sentence.find("once scale"), std::string::npos) << lead->sentence;
+  }
+  EXPECT_EQ(named, 4);
 }
 
 }  // namespace

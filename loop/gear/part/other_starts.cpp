@@ -60,6 +60,23 @@ std::vector<RemainderFinding> other_starts(const PartModel& model) {
   return starts;
 }
 
+/// Of an effect of one column that runs over the profile: no straight lean.
+bool bends_over_profile(const FlankGeometry& geometry, const Effect& effect) {
+  constexpr double kStraight = 1e-6;
+  const double root = geometry.root_form_roll_mm(), tip = geometry.tip_form_roll_mm();
+  const Flank on = effect.flank == FlankChoice::kLeft ? Flank::kLeft : Flank::kRight;
+  const auto at = [&](double share) {
+    double value = 0.0;
+    effect.evaluate(geometry,
+                    geometry.on_flank(1, flank_side(on, geometry.gear().kind),
+                                      root + share * (tip - root), 0.5 * geometry.face_width_mm()),
+                    &value);
+    return value;
+  };
+  return std::abs(at(0.0) - 2.0 * at(0.5) + at(1.0)) >
+         kStraight * (std::abs(at(0.0)) + std::abs(at(1.0)) + std::abs(at(0.5)));
+}
+
 }  // namespace
 
 bool begins_better(PartModel& model) {
@@ -110,10 +127,8 @@ void take_other_start(PartModel& model) {
 }
 
 void doubt_size_of_flanks(PartModel& model) {
-  constexpr double kNoLoss = 5e-3;  // of the error's square
-  const auto is_size = [](const Effect& e) {
-    return e.family->named && e.family->moves_whole_part;
-  };
+  constexpr double kNoLoss = 1e-2;  // of the error's square
+  const auto is_size = [](const Effect& e) { return e.family->moves_whole_part; };
   const auto told = model.effects.begin() + static_cast<std::ptrdiff_t>(first_told_here(model));
   const auto size = std::find_if(told, model.effects.end(), is_size);
   if (size == model.effects.end() || model.options.names_only || !model.options.start.empty() ||
@@ -121,13 +136,15 @@ void doubt_size_of_flanks(PartModel& model) {
       std::any_of(model.table->rows.begin(), model.table->rows.end(),
                   [](const Observation& row) { return row.kind != ObservationKind::kScanFlank; }))
     return;
-  const bool mended = std::any_of(told, model.effects.end(), [&](const Effect& effect) {
-    return effect.is_term() && effect.order() == 0.0 &&
-           runs_of(model.geometry, effect) == Runs::kOverProfile;
-  });
-  if (!mended && !structure_is_left(model)) return;
+  if (std::none_of(told, model.effects.end(), [&](const Effect& effect) {
+        return effect.order() == 0.0 && runs_of(model.geometry, effect) == Runs::kOverProfile &&
+               (effect.columns() > 1 || bends_over_profile(model.geometry, effect));
+      }))
+    return;
   PartOptions options = model.options;
   options.given.resize(first_told_here(model));
+  for (const Effect& candidate : model.candidates)
+    if (is_size(candidate)) options.without.push_back(candidate.family);
   options.without.push_back(size->family);
   SharedTable measured = model.table;
   if (measured->is_displaced) undo_displacement(model.geometry, measured.own());

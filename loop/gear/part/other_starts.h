@@ -11,8 +11,8 @@ namespace trueflank::loop {
 /// The best of other starts where it costs clearly less than what the choice came to by itself.
 void take_other_start(PartModel& model);
 /// The size of a part that nothing but its flanks shows stands for a thickness and a lean in one
-/// ratio. Where forms over the profile mend it, or something is left, the choice is made again
-/// without it, and taken over where that costs clearly less.
+/// ratio. Where forms over the profile mend it, the choice is made again without it, and taken over
+/// where it needs fewer effects, or leaves clearly less.
 void doubt_size_of_flanks(PartModel& model);
 
 }  // namespace trueflank::loop
