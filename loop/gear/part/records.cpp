@@ -271,7 +271,7 @@ double chance_of_both_flanks(const std::vector<double>& own_um,
   const auto n = static_cast<double>(others_um.size());
   const double correlation = correlation_of_pairs(others_um);
   if (correlation < -kOpposite) return 1.0;
-  const double shared = std::clamp(correlation + 1.0 / std::sqrt(n), 0.0, kMostShared);
+  const double shared = std::clamp(correlation, 0.0, kMostShared);
   const double way = own_um[0] + own_um[1] > 0.0 ? 1.0 : -1.0;
   const auto [smaller, larger] = std::minmax({way * own_um[0], way * own_um[1]});
   const double beside = (smaller - shared * larger) / std::sqrt(1.0 - shared * shared);
