@@ -81,12 +81,14 @@ TEST(RunsOfTeeth, OfEitherFlankAreOneFormEach) {
 
 TEST(FlankThatLeansOverItsProfile, IsNoHeightAndNoSpots) {
   const MadeGear gear = spur(24);
-  const auto leans = [](auto&, const FlankSpot& s, auto&) {
-    return is_on(s, 5, 1) ? 9.0 * s.u : 0.0;
-  };
-  const auto result = close(gear, scan_of(gear, {grown(leans)}, scanned(9000, 1.0, 4)), true);
-  EXPECT_EQ(result.effects.size(), 1U) << list(result);
-  EXPECT_TRUE(tells_of(result, "tooth 5 alone leans over the profile")) << list(result);
+  for (const int side : {1, -1}) {
+    const auto leans = [=](auto&, const FlankSpot& s, auto&) {
+      return is_on(s, 5, side) ? 9.0 * s.u : 0.0;
+    };
+    const auto result = close(gear, scan_of(gear, {grown(leans)}, scanned(6000, 1.0, 4)), true);
+    EXPECT_EQ(result.effects.size(), 1U) << list(result);
+    EXPECT_TRUE(tells_of(result, "tooth 5 alone leans over the profile")) << list(result);
+  }
 }
 
 TEST(ToothCrownedByItself, IsOneBow) {
