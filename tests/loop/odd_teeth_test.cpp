@@ -67,7 +67,7 @@ TEST(RunsOfTeeth, OfEitherFlankAreOneFormEach) {
   options.profile = options.helix = false;
   options.noise_um = 0.6;
   for (const double right_um : {-12.0, 30.0})
-    for (options.seed = 1; options.seed <= 3; ++options.seed) {
+    for (options.seed = 1; options.seed <= 2; ++options.seed) {
       const auto stand_out = [=](auto&, const FlankSpot& s, auto&) {
         if (s.side > 0) return s.tooth >= 3 && s.tooth <= 6 ? 20.0 : 0.0;
         return s.tooth >= 20 && s.tooth <= 22 ? right_um : 0.0;
