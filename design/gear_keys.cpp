@@ -203,30 +203,43 @@ const std::vector<DesignKey<GearDesign>>& gear_keys() {
 }
 
 const std::vector<DesignKey<ShaperCutter>>& cutter_keys() {
-  using C = ShaperCutter;
-  static const std::vector<DesignKey<C>> keys{
-      {{.name = "name", .type = KeyType::kText, .by_default = "none",
+  using Cutter = ShaperCutter;
+  static const std::vector<DesignKey<Cutter>> keys{
+      {{.name = "name",
+        .type = KeyType::kText,
+        .by_default = "none",
         .meaning = "a cutter by its name ([made](made.md)); the keys below change single values of "
                    "it"},
        KeyPlace::kAnywhere,
-       [](C&, const KeyValue&) {},  // the reader fills in what the other keys do not say
-       [](const C&) { return Value(); }},
-      {{.name = "teeth", .type = KeyType::kWhole, .lower = 5, .upper = 500,
+       [](Cutter&, const KeyValue&) {},  // the reader fills in what the other keys do not say
+       [](const Cutter&) { return Value(); }},
+      {{.name = "teeth",
+        .type = KeyType::kWhole,
+        .lower = 5,
+        .upper = 500,
         .by_default = "needed without name",
         .meaning = "number of teeth of the cutter; fewer than the ring's"},
        KeyPlace::kAnywhere,
-       [](C& c, const KeyValue& v) { c.teeth = whole(v); },
-       [](const C& c) { return whole_value(c.teeth); }},
-      {{.name = "shift", .unit = "module", .lower = -10, .upper = 10, .by_default = "0",
+       [](Cutter& c, const KeyValue& v) { c.teeth = whole(v); },
+       [](const Cutter& c) { return whole_value(c.teeth); }},
+      {{.name = "shift",
+        .unit = "module",
+        .lower = -10,
+        .upper = 10,
+        .by_default = "0",
         .meaning = "profile shift of the cutter"},
        KeyPlace::kAnywhere,
-       [](C& c, const KeyValue& v) { c.shift = number(v); },
-       [](const C& c) { return Value(c.shift); }},
-      {{.name = "tip_radius", .unit = "module", .lower = 0, .upper = 3, .by_default = "0",
+       [](Cutter& c, const KeyValue& v) { c.shift = number(v); },
+       [](const Cutter& c) { return Value(c.shift); }},
+      {{.name = "tip_radius",
+        .unit = "module",
+        .lower = 0,
+        .upper = 3,
+        .by_default = "0",
         .meaning = "rounding of the corners of the cutter's teeth, in its transverse section"},
        KeyPlace::kAnywhere,
-       [](C& c, const KeyValue& v) { c.tip_radius = number(v); },
-       [](const C& c) { return Value(c.tip_radius); }},
+       [](Cutter& c, const KeyValue& v) { c.tip_radius = number(v); },
+       [](const Cutter& c) { return Value(c.tip_radius); }},
   };
   return keys;
 }

@@ -107,7 +107,7 @@ RequirementsSection losses() { return losses_of(std::make_index_sequence<kLossKe
 }  // namespace requirements
 
 const std::vector<RequirementsKey<Material>>& material_keys() {
-  using M = Material;
+  using Own = Material;
   using requirements::number, requirements::text, requirements::V;
   static const std::vector<RequirementsKey<Material>> kKeys{
       {{.name = "bending_limit_mpa",
@@ -116,25 +116,25 @@ const std::vector<RequirementsKey<Material>>& material_keys() {
         .upper = 1e4,
         .required = true,
         .meaning = "sigma_Flim, pulsating"},
-       [](M& m, const V& v) { return m.bending_limit_mpa = number(v), std::string(); }},
+       [](Own& m, const V& v) { return m.bending_limit_mpa = number(v), std::string(); }},
       {{.name = "contact_limit_mpa",
         .unit = "MPa",
         .lower = 0.1,
         .upper = 1e4,
         .required = true,
         .meaning = "sigma_Hlim"},
-       [](M& m, const V& v) { return m.contact_limit_mpa = number(v), std::string(); }},
+       [](Own& m, const V& v) { return m.contact_limit_mpa = number(v), std::string(); }},
       {{.name = "elastic_modulus_mpa", .unit = "MPa", .lower = 1, .upper = 1e7, .required = true},
-       [](M& m, const V& v) { return m.elastic_modulus_mpa = number(v), std::string(); }},
+       [](Own& m, const V& v) { return m.elastic_modulus_mpa = number(v), std::string(); }},
       {{.name = "poisson_ratio", .lower = 0, .upper = 0.5, .required = true},
-       [](M& m, const V& v) { return m.poisson_ratio = number(v), std::string(); }},
+       [](Own& m, const V& v) { return m.poisson_ratio = number(v), std::string(); }},
       {{.name = "density_kg_m3", .unit = "kg/m3", .lower = 1, .upper = 1e5, .required = true},
-       [](M& m, const V& v) { return m.density_kg_m3 = number(v), std::string(); }},
+       [](Own& m, const V& v) { return m.density_kg_m3 = number(v), std::string(); }},
       {{.name = "source",
         .type = KeyType::kText,
         .by_default = "empty",
         .meaning = "where the limits come from"},
-       [](M& m, const V& v) { return m.source = text(v), std::string(); }}};
+       [](Own& m, const V& v) { return m.source = text(v), std::string(); }}};
   return kKeys;
 }
 

@@ -10,7 +10,7 @@ namespace trueflank::loop {
 namespace {
 
 constexpr int kMostCells = 14;
-constexpr double kFromLeft = 74, kTop = 18, kWide = 500, kHigh = 250;
+constexpr double kFromLeft = 74, kTop = 18, kWidePlot = 500, kHigh = 250;
 
 /// One end of an axis to the other in steps that can be read.
 struct Scale {
@@ -54,7 +54,7 @@ class PointChart {
   }
 
  private:
-  [[nodiscard]] double x_at(double value) const { return kFromLeft + kWide * x_.share(value); }
+  [[nodiscard]] double x_at(double value) const { return kFromLeft + kWidePlot * x_.share(value); }
   [[nodiscard]] double y_at(double value) const { return kTop + kHigh * (1.0 - y_.share(value)); }
   static std::string place(double value) { return printed_number(value, "%.1f"); }
   static std::string text(double x, double y, const char* anchor, const std::string& words) {
@@ -74,13 +74,13 @@ class PointChart {
     for (int i = 0; i <= ticks(y_); ++i) {
       const double value = y_.low + i * y_.step, y = y_at(value);
       svg += "<path class='" + std::string(std::abs(value) < 1e-9 * y_.step ? "zero" : "grid") +
-             "' d='M" + place(kFromLeft) + " " + place(y) + "h" + place(kWide) + "'/>" +
+             "' d='M" + place(kFromLeft) + " " + place(y) + "h" + place(kWidePlot) + "'/>" +
              text(kFromLeft - 7, y + 4.5, "end", tick_text(y_, i));
     }
     for (int i = 0; i <= ticks(x_); ++i)
       svg += text(x_at(x_.low + i * x_.step), kTop + kHigh + 18, i == ticks(x_) ? "end" : "middle",
                   tick_text(x_, i));
-    return svg + text(kFromLeft + 0.5 * kWide, kTop + kHigh + 40, "middle", x_name);
+    return svg + text(kFromLeft + 0.5 * kWidePlot, kTop + kHigh + 40, "middle", x_name);
   }
 
   Scale x_, y_;

@@ -80,7 +80,7 @@ CourseFinding own_waves(const std::vector<MatrixXd>& sets, const std::vector<Vec
   constexpr double kStandsOut = 3.0, kAboveEach = 1.5;
   // What little stands in the lobes between the wavelengths that a filter took away is no line.
   constexpr double kInALobe = 1.0;
-  constexpr Index kLongest = 2;  // forms rather than errors
+  constexpr Index kOfForms = 2;  // forms rather than errors
   CourseFinding best{CourseFinding::Kind::kOwnWaves};
   // One course that is louder than the others would count for all of them.
   std::vector<MatrixXd> evened;
@@ -91,7 +91,7 @@ CourseFinding own_waves(const std::vector<MatrixXd>& sets, const std::vector<Vec
     if (sets[s].cols() < 1) continue;
     const VectorXd& power = powers[s];
     const auto n = static_cast<double>(sets[s].cols());
-    const double least = kInALobe * power.tail(std::max<Index>(1, power.size() - kLongest)).mean();
+    const double least = kInALobe * power.tail(std::max<Index>(1, power.size() - kOfForms)).mean();
     for (Index k = 5; k + 4 < power.size(); ++k) {
       tests += 1.0;
       if (power[k] < least) continue;

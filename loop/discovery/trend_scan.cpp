@@ -64,17 +64,17 @@ Index degrees_for(double courses, Index rows) {
 }  // namespace
 
 std::optional<OwnTrend> own_trend(const std::vector<MatrixXd>& sets) {
-  constexpr Index kFewestRows = 16, kFewestCourses = 3;
+  constexpr Index kFewestRows = 16, kFewestInASet = 3;
   if (sets.empty() || sets.front().rows() < kFewestRows) return {};
   const Index rows = sets.front().rows();
   double courses = 0.0;  // that differ from the mean of theirs
   for (const MatrixXd& set : sets)
-    if (set.cols() >= kFewestCourses) courses += static_cast<double>(set.cols() - 1);
+    if (set.cols() >= kFewestInASet) courses += static_cast<double>(set.cols() - 1);
   if (!(courses > 0.0)) return {};
   const MatrixXd basis = polynomials(rows, degrees_for(courses, rows));
   VectorXd power = VectorXd::Zero(basis.cols());
   for (const MatrixXd& set : sets)
-    if (set.cols() >= kFewestCourses)
+    if (set.cols() >= kFewestInASet)
       power += (basis.transpose() * (set.colwise() - set.rowwise().mean())).rowwise().squaredNorm();
   power /= courses;
   if (!(power.tail(power.size() - 1).minCoeff() > 0.0)) return {};

@@ -19,7 +19,7 @@ namespace trueflank::loop {
 namespace {
 
 /// Chance that noise alone is called structure; the questions share it.
-constexpr double kLevel = 0.005;
+constexpr double kLevelOfRemainder = 0.005;
 constexpr int kFlips = 1999;
 /// Flips that are computed beside each other, each with its own sums: one after the other every sum waits for the one before.
 constexpr std::size_t kBeside = 8;
@@ -59,8 +59,8 @@ class Asking {
     found.p_value = slow;
     for (const Question& q : questions_) found.p_value = std::min(found.p_value, q.p_value);
     found.p_value = std::min(1.0, 2.0 * found.p_value);
-    if (found.p_value <= kLevel)
-      describe(found, slow <= 0.5 * kLevel, 0.5 * kLevel);
+    if (found.p_value <= kLevelOfRemainder)
+      describe(found, slow <= 0.5 * kLevelOfRemainder, 0.5 * kLevelOfRemainder);
     else
       stand_out(found);
     return found;

@@ -206,13 +206,14 @@ class StackMesher {
     std::size_t j = 0;
     while (heights[j] - height_in_gear(loop, z_of(first_level)) < -1e-9) ++j;
     std::uint32_t lower = row_at(j);
-    for (; level <= last_level; ++j) {
+    while (level <= last_level) {
       const std::uint32_t upper = row_at(j + 1);
       if (grid.patches().empty())
         add_layer(grid, j, lower, upper, hole);
       else
         add_patch(grid, j, lower, upper, hole);
       lower = upper;
+      ++j;
     }
   }
 

@@ -59,14 +59,36 @@ TEST(ToothAskew, OfManyIsNoSectorsThatUndoEachOther) {
   }
 }
 
+// Once one run was told, the first tooth of the next was passed over: the others were three single
+// teeth, or a sector and a tooth beside it that stands out by nothing.
+TEST(RunsOfTeeth, OfEitherFlankAreOneFormEach) {
+  const MadeGear gear = spur(40);
+  InspectionOptions options;
+  options.profile = options.helix = false;
+  options.noise_um = 0.6;
+  for (const double right_um : {-12.0, 30.0})
+    for (options.seed = 1; options.seed <= 2; ++options.seed) {
+      const auto stand_out = [=](auto&, const FlankSpot& s, auto&) {
+        if (s.side > 0) return s.tooth >= 3 && s.tooth <= 6 ? 20.0 : 0.0;
+        return s.tooth >= 20 && s.tooth <= 22 ? right_um : 0.0;
+      };
+      const auto result = close(gear, inspection_of(gear, {grown(stand_out)}, options));
+      EXPECT_EQ(result.effects.size(), 2U) << list(result);
+      EXPECT_TRUE(tells_of(result, "a sector of 4 teeth from tooth 3 on")) << list(result);
+      EXPECT_TRUE(tells_of(result, "a sector of 3 teeth from tooth 20 on")) << list(result);
+    }
+}
+
 TEST(FlankThatLeansOverItsProfile, IsNoHeightAndNoSpots) {
   const MadeGear gear = spur(24);
-  const auto leans = [](auto&, const FlankSpot& s, auto&) {
-    return is_on(s, 5, 1) ? 9.0 * s.u : 0.0;
-  };
-  const auto result = close(gear, scan_of(gear, {grown(leans)}, scanned(9000, 1.0, 4)), true);
-  EXPECT_EQ(result.effects.size(), 1U) << list(result);
-  EXPECT_TRUE(tells_of(result, "tooth 5 alone leans over the profile")) << list(result);
+  for (const int side : {1, -1}) {
+    const auto leans = [=](auto&, const FlankSpot& s, auto&) {
+      return is_on(s, 5, side) ? 9.0 * s.u : 0.0;
+    };
+    const auto result = close(gear, scan_of(gear, {grown(leans)}, scanned(6000, 1.0, 4)), true);
+    EXPECT_EQ(result.effects.size(), 1U) << list(result);
+    EXPECT_TRUE(tells_of(result, "tooth 5 alone leans over the profile")) << list(result);
+  }
 }
 
 TEST(ToothCrownedByItself, IsOneBow) {

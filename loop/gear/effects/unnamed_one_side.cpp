@@ -31,10 +31,10 @@ EffectFamily unnamed_one_side() {
   f.bends_over_the_face = [](const EffectShape&) { return true; };
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     // Longer ones are nearly a slope or a bow, which come once per turn as well.
-    constexpr double kLongest = 0.3;
+    constexpr double kMostOfFace = 0.3;
     std::vector<EffectShape> shapes;
     for (const double times : {0.7, 0.85, 0.95, 0.98, 1.02, 1.05, 1.18, 1.43})
-      if (times * shape[1] <= kLongest * g.face_width_mm())
+      if (times * shape[1] <= kMostOfFace * g.face_width_mm())
         shapes.push_back({shape[0], times * shape[1], shape[2], shape[3]});
     for (const double off : {-20.0, -7.0, -2.0, -0.7, 0.7, 2.0, 7.0, 20.0})
       shapes.push_back({shape[0], shape[1], shape[2] + off, shape[3]});
@@ -79,7 +79,7 @@ EffectFamily unnamed_swellings_at_end() {
   f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
   f.bends_over_the_face = [](const EffectShape&) { return true; };
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
-    constexpr double kLongest = 0.5;  // of the face
+    constexpr double kMostOfFace = 0.5;  // of the face
     std::vector<EffectShape> shapes;
     const double apart_deg = 360.0 / shape[0];
     for (const double off : {-0.5, -0.15, -0.04, 0.0, 0.04, 0.15, 0.5})
@@ -90,7 +90,7 @@ EffectFamily unnamed_swellings_at_end() {
         if (beside != shape) shapes.push_back(std::move(beside));
       }
     for (const double times : {0.7, 0.85, 0.95, 0.98, 1.02, 1.05, 1.18, 1.43})
-      if (times * shape[4] <= kLongest * g.face_width_mm()) {
+      if (times * shape[4] <= kMostOfFace * g.face_width_mm()) {
         shapes.push_back(shape);
         shapes.back()[4] *= times;
       }

@@ -169,24 +169,23 @@ EffectFamily unnamed_kink() {
 /// Flat to its place, and from there on a parabola: 1 at the end it bends towards. Towards both
 /// ends (0): the same from the other end, the place being the upper one, or that towards the tip.
 EffectFamily unnamed_bend() {
-  constexpr double kTowardsLow = -1.0, kBothEnds = 0.0, kTowardsHigh = 1.0;
-  EffectFamily f =
-      along_flank("unnamed_bend", {"along", "place_mm", "curves"},
-                  [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
-                    const double low = end_mm(g, shape[0], kTowardsLow),
-                                 high = end_mm(g, shape[0], kTowardsHigh),
-                                 at = stands_at(g, shape[0], shape[1]);
-                    const double end = shape[2] == kTowardsLow ? low : high, range = end - at;
-                    if (range == 0.0) return 0.0;
-                    const double share = (along(shape[0], p) - at) / range;
-                    const double from_low = (low + high - along(shape[0], p) - at) / range;
-                    const double most = shape[2] == kBothEnds ? std::max(share, from_low) : share;
-                    return most > 0.0 ? most * most : 0.0;
-                  });
+  constexpr double kLowEnd = -1.0, kBothEnds = 0.0, kHighEnd = 1.0;
+  EffectFamily f = along_flank(
+      "unnamed_bend", {"along", "place_mm", "curves"},
+      [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
+        const double low = end_mm(g, shape[0], kLowEnd), high = end_mm(g, shape[0], kHighEnd),
+                     at = stands_at(g, shape[0], shape[1]);
+        const double end = shape[2] == kLowEnd ? low : high, range = end - at;
+        if (range == 0.0) return 0.0;
+        const double share = (along(shape[0], p) - at) / range;
+        const double from_low = (low + high - along(shape[0], p) - at) / range;
+        const double most = shape[2] == kBothEnds ? std::max(share, from_low) : share;
+        return most > 0.0 ? most * most : 0.0;
+      });
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     std::vector<EffectShape> shapes = places_inside(g, shape);
     if (shape[2] != kBothEnds) {
-      shapes.push_back({shape[0], shape[1], shape[2] == kTowardsLow ? kTowardsHigh : kTowardsLow});
+      shapes.push_back({shape[0], shape[1], shape[2] == kLowEnd ? kHighEnd : kLowEnd});
       return shapes;
     }
     // Longer ones are nearly a parabola over all of it: a crowning.

@@ -400,7 +400,12 @@ LikeliestProducts::BesideNames LikeliestProducts::beside_names() const {
 
 std::vector<LikelyForms> LikeliestProducts::around_the_gear() const {
   using namespace product_cells;
-  const auto& [g, scan, teeth, profiles, faces, ways] = *cells_;
+  // (lambdas capture no structured bindings)
+  const FlankGeometry& g = cells_->geometry;
+  const bool scan = cells_->scan;
+  const auto& teeth = cells_->teeth;
+  const auto &profiles = cells_->profiles, &faces = cells_->faces;
+  const auto& ways = cells_->ways;
   const Arounds arounds = arounds_of(g);
   const auto likely = [&](const FlankCourse& profile, const FlankCourse& face, const FlankWay& way,
                           const auto& projection) {

@@ -103,7 +103,9 @@ Seen seen_in(const FlankGeometry& geometry, const Observations& table, const Pat
                                 geometry.profile_coordinate(roll_mm[side].least);
     const double over_face = geometry.face_coordinate(face_mm[side].most) -
                              geometry.face_coordinate(face_mm[side].least);
-    seen.reach[side].profile = std::abs(over_profile) > kSeveral;
+    // (where no flank of a side was followed, the ends are infinite, and so is this)
+    const bool followed = roll_mm[side].least <= roll_mm[side].most;
+    seen.reach[side].profile = followed && std::abs(over_profile) > kSeveral;
     seen.reach[side].face = over_face > kSeveral;
   }
   const double lowest = std::min(1.0, geometry.face_coordinate(height_mm.least));

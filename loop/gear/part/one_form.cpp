@@ -244,9 +244,8 @@ bool tell_as_name_with_a_place(PartModel& model, int face) {
     }
   if (all.size() < 2 || values_of(own, true) < kFewestValues) return false;
   std::vector<Effect> names = names_with_shapes(model.geometry, own);
-  // What undoes itself may be a name that is not among them beside a rise at an end.
-  const bool undo = undo_each_other(model.geometry, *fit_of(model, model.effects), all);
-  for (std::size_t c = 0; undo && c < model.candidates.size(); ++c)
+  // It may be a name that is not among them beside a rise at an end.
+  for (std::size_t c = 0; c < model.candidates.size(); ++c)
     if (const Effect& name = model.candidates[c];
         name.family->named && name.family->shape_is_continuous && !name.family->shape_is_step &&
         !model.unseen[c] && name.shape.size() == 1 && runs_of(model.geometry, name) == runs)
@@ -261,7 +260,7 @@ bool tell_as_name_with_a_place(PartModel& model, int face) {
   for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight})
     beside.push_back(s_over(face, flank));
   for (Effect& form : forms_along(model.geometry, face, FlankChoice::kBoth, false))
-    if (undo && form.family == find_family("unnamed_rise") && form.shape[2] != 0.0)
+    if (form.family == find_family("unnamed_rise") && form.shape[2] != 0.0)
       beside.push_back(std::move(form));
   return std::any_of(beside.begin(), beside.end(), [&](const Effect& form) {
     return std::find(own.begin(), own.end(), form) == own.end() &&

@@ -380,6 +380,46 @@ void tell_teeth_beside_dents(PartModel& model) {
   }
 }
 
+/// A form for a run of single teeth that goes through one of them; true where they are told as
+/// that.
+bool tell_run_of_teeth(PartModel& model, std::size_t one) {
+  constexpr std::size_t kFewest = 3;
+  if (!model.effects[one].family->local) return false;
+  const auto fit = fit_of(model, model.effects);
+  const auto height = [&](std::size_t e) {
+    return fit->coefficients()[fit->first_column(static_cast<int>(e))];
+  };
+  std::vector<std::pair<int, std::size_t>> teeth;
+  for (std::size_t e = one; e < model.effects.size(); ++e)
+    if (model.effects[e].family == model.effects[one].family &&
+        model.effects[e].flank == model.effects[one].flank && height(e) * height(one) > 0.0)
+      teeth.emplace_back(static_cast<int>(model.effects[e].shape[0]), e);
+  std::sort(teeth.begin(), teeth.end());
+  RunOfTeeth run = longest_run(teeth, model.geometry.teeth());
+  if (run.effects.size() < kFewest) return false;
+  std::sort(run.effects.rbegin(), run.effects.rend());
+  std::vector<Effect> rest = model.effects;
+  for (const std::size_t e : run.effects) rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(e));
+  const std::optional<Effect> form =
+      form_of_teeth(model, rest, model.effects[one].flank, run.first, run.count);
+  if (!form) {
+    for (const std::size_t e : run.effects)
+      if (const EffectFamily* height_of_tooth = form_instead(model, e))
+        model.effects[e].family = height_of_tooth;
+    return false;
+  }
+  ChosenGroup record;
+  record.group = -1;
+  record.p_value = model.discovery.chosen[one].p_value;
+  for (const std::size_t e : run.effects) {
+    record.p_value = std::min(record.p_value, model.discovery.chosen[e].p_value);
+    remove_effect(model, e);
+  }
+  model.effects.push_back(*form);
+  model.discovery.chosen.push_back(record);
+  return true;
+}
+
 }  // namespace
 
 bool tell_as_sector(PartModel& model) {
@@ -443,44 +483,9 @@ std::vector<Effect> with_sector(PartModel& model, std::vector<std::size_t>& thes
 }
 
 void tell_teeth_side_by_side(PartModel& model) {
-  constexpr std::size_t kFewest = 3;
-  for (std::size_t one = model.options.given.size(); one < model.effects.size(); ++one) {
-    if (!model.effects[one].family->local) continue;
-    const auto fit = fit_of(model, model.effects);
-    const auto height = [&](std::size_t e) {
-      return fit->coefficients()[fit->first_column(static_cast<int>(e))];
-    };
-    std::vector<std::pair<int, std::size_t>> teeth;
-    for (std::size_t e = one; e < model.effects.size(); ++e)
-      if (model.effects[e].family == model.effects[one].family &&
-          model.effects[e].flank == model.effects[one].flank && height(e) * height(one) > 0.0)
-        teeth.emplace_back(static_cast<int>(model.effects[e].shape[0]), e);
-    std::sort(teeth.begin(), teeth.end());
-    RunOfTeeth run = longest_run(teeth, model.geometry.teeth());
-    if (run.effects.size() < kFewest) continue;
-    std::sort(run.effects.rbegin(), run.effects.rend());
-    std::vector<Effect> rest = model.effects;
-    for (const std::size_t e : run.effects)
-      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(e));
-    const std::optional<Effect> form =
-        form_of_teeth(model, rest, model.effects[one].flank, run.first, run.count);
-    if (!form) {
-      for (const std::size_t e : run.effects)
-        if (const EffectFamily* height_of_tooth = form_instead(model, e))
-          model.effects[e].family = height_of_tooth;
-      continue;
-    }
-    ChosenGroup record;
-    record.group = -1;
-    record.p_value = model.discovery.chosen[one].p_value;
-    for (const std::size_t e : run.effects) {
-      record.p_value = std::min(record.p_value, model.discovery.chosen[e].p_value);
-      remove_effect(model, e);
-    }
-    model.effects.push_back(*form);
-    model.discovery.chosen.push_back(record);
-    one = model.options.given.size();
-  }
+  // (what stood before the first of a run has moved up when the run is told)
+  for (std::size_t one = model.options.given.size(); one < model.effects.size();)
+    one = tell_run_of_teeth(model, one) ? model.options.given.size() : one + 1;
   tell_teeth_beside_dents(model);
 }
 

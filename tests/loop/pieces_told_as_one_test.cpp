@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/loop/made_gears.h"
+#include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/part/drifts.h"
+#include "trueflank/loop/gear/part/fields.h"
+#include "trueflank/loop/gear/part/forms_around.h"
+#include "trueflank/loop/gear/part/forms_of_teeth.h"
+#include "trueflank/loop/gear/part/forms_to_try.h"
+#include "trueflank/loop/gear/part/names.h"
+#include "trueflank/loop/gear/part/names_beside_forms.h"
+#include "trueflank/loop/gear/part/odd_forms.h"
+#include "trueflank/loop/gear/part/one_form.h"
+#include "trueflank/loop/gear/part/part_model.h"
+#include "trueflank/loop/gear/part/settled_names.h"
+#include "trueflank/loop/gear/part/taken_up.h"
+
+// An answer in pieces, as the choice may come to, and what is told instead: asked by itself, as no
+// search needs to come to the pieces first.
+namespace trueflank::test {
+namespace {
+
+using loop::Effect;
+using loop::EffectShape;
+using loop::FlankChoice;
+
+Effect piece(const char* family, EffectShape shape, FlankChoice flank = FlankChoice::kBoth) {
+  return {loop::find_family(family), flank, std::move(shape)};
+}
+Effect term(double profile, double face, double order = 0.0, double opposite = 0.0) {
+  return piece("unnamed", {profile, face, order, opposite});
+}
+
+/// A scan of a gear that was made so, and pieces that are told of it.
+class Pieces {
+ public:
+  Pieces(const MadeGear& gear, const Process& made, std::vector<Effect> pieces, int points = 3000)
+      : Pieces(gear, std::vector<Process>{made}, std::move(pieces), points) {}
+  Pieces(const MadeGear& gear, const std::vector<Process>& made, std::vector<Effect> pieces,
+         int points = 3000)
+      : geometry_(geometry_of(gear)) {
+    loop::MeasuredData data;
+    data.scans.push_back(scan_of(gear, made, scanned(points, 1.0, 1)));
+    model_.emplace(geometry_, *make_observations(geometry_, data, {.aligned = true}),
+                   loop::PartOptions());
+    divide_into_patches(*model_);
+    model_->unseen = model_->banned;
+    model_->effects = std::move(pieces);
+    model_->discovery.chosen.resize(model_->effects.size());
+  }
+  loop::PartModel& operator*() { return *model_; }
+  [[nodiscard]] const std::vector<Effect>& told() const { return model_->effects; }
+  [[nodiscard]] std::string text() const {
+    std::string text;
+    for (const Effect& effect : told()) {
+      text += effect.family->id + (effect.flank == FlankChoice::kBoth ? "" : " of one flank");
+      for (const double value : effect.shape) text += " " + std::to_string(value);
+      text += "; ";
+    }
+    return text;
+  }
+  [[nodiscard]] bool has(const char* family) const {
+    return std::any_of(told().begin(), told().end(), [&](const Effect& effect) {
+      return effect.family == loop::find_family(family);
+    });
+  }
+
+ private:
+  loop::FlankGeometry geometry_;
+  std::optional<loop::PartModel> model_;
+};
+
+/// Teeth gone from this one on: 0 ... z - 1.
+double gone(const MadeGear& gear, int tooth, int first) {
+  return (tooth - first + gear.teeth) % gear.teeth;
+}
+
+TEST(PiecesToldAsOne, WavesAroundTheGearThatAreADriftBesideACrowning) {
+  const MadeGear gear = spur(20);
+  for (const double lean : {0.0, 1.0}) {
+    const auto made = [=](const MadeGear& g, const FlankSpot& s, auto&) {
+      return (20.0 * gone(g, s.tooth, 6) / g.teeth - 10.0) * (lean > 0.0 ? s.u : 1.0) +
+             8.0 * (1.0 - s.v * s.v);
+    };
+    Pieces pieces(
+        gear, grown(made),
+        {term(lean, 0.0, 1.0), piece("crowning", {}), term(lean, 0.0, 2.0), term(lean, 0.0, 3.0)});
+    EXPECT_TRUE(tell_as_drift(*pieces));
+    ASSERT_EQ(pieces.told().size(), 2U) << pieces.text();
+    EXPECT_TRUE(pieces.has("crowning")) << pieces.text();
+    EXPECT_TRUE(pieces.has("unnamed_ramp")) << pieces.text();
+    EXPECT_EQ(pieces.told().back().shape[0], 6.0) << pieces.text();
+  }
+}
+
+/// Of what levels off from a tooth on.
+double levelled_um(const MadeGear& gear, int tooth) {
+  return 20.0 * (1.0 - std::exp(-gone(gear, tooth, 6) / 5.0));
+}
+Effect levelling(double zero) {
+  return piece("unnamed_levelling", {6.0, 0.0, 0.0, 0.0, 0.0, 5.0, zero});
+}
+
+TEST(PiecesToldAsOne, ALevelAndADriftAboutItsMeanThatBeginWithNothing) {
+  const MadeGear gear = spur(20);
+  const auto made = [](const MadeGear& g, const FlankSpot& s, auto&) {
+    return levelled_um(g, s.tooth) + 5.0 * s.v;
+  };
+  for (const bool turned : {false, true}) {
+    std::vector<Effect> both{term(0.0, 0.0), piece("taper", {}),
+                             levelling(loop::gear_effects::kMeanOfDrift)};
+    if (turned) std::swap(both[0], both[2]);
+    Pieces pieces(gear, grown(made), both);
+    EXPECT_TRUE(tell_as_drift(*pieces));
+    ASSERT_EQ(pieces.told().size(), 2U) << pieces.text();
+    EXPECT_TRUE(pieces.has("taper")) << pieces.text();
+    EXPECT_EQ(pieces.told().back().shape[6], loop::gear_effects::kFirstOfDrift) << pieces.text();
+  }
+}
+
+// A taper is no level beside it; a level that neither end explains makes it one about its mean.
+TEST(PiecesToldAsOne, ADriftBeginsWithNothingUntilALevelSaysOtherwise) {
+  for (const bool level : {false, true}) {
+    const auto made = [=](const MadeGear& g, const FlankSpot& s, auto&) {
+      return levelled_um(g, s.tooth) + (level ? 40.0 : 5.0 * s.v);
+    };
+    Pieces pieces(spur(20), grown(made),
+                  {level ? term(0.0, 0.0) : piece("taper", {}),
+                   levelling(loop::gear_effects::kFirstOfDrift)});
+    EXPECT_EQ(tell_as_drift(*pieces), level) << pieces.text();
+    ASSERT_EQ(pieces.told().size(), 2U) << pieces.text();
+    EXPECT_EQ(pieces.told().back().shape[6],
+              level ? loop::gear_effects::kMeanOfDrift : loop::gear_effects::kFirstOfDrift)
+        << pieces.text();
+  }
+}
+
+TEST(PiecesToldAsOne, EqualAndOppositeCoursesThatAreOneOfOneFlank) {
+  const auto made = [](auto&, const FlankSpot& s, auto&) {
+    return s.side < 0 ? 14.0 * std::exp(-(1.0 - s.v) / 0.35) : 0.0;
+  };
+  Pieces pieces(spur(20), grown(made),
+                {term(0.0, 1.0), term(0.0, 1.0, 0.0, 1.0), term(0.0, 2.0), term(0.0, 2.0, 0.0, 1.0),
+                 term(0.0, 0.0), term(0.0, 0.0, 0.0, 1.0)});
+  tell_as_one_form(*pieces);
+  ASSERT_EQ(pieces.told().size(), 1U) << pieces.text();
+  EXPECT_EQ(pieces.told().front().flank, FlankChoice::kRight) << pieces.text();
+}
+
+TEST(PiecesToldAsOne, FormsOncePerTurnThatAreABentAxis) {
+  const auto made = [](const MadeGear& g, const FlankSpot& s, auto&) {
+    const Vec3 n = normal_at(g, s);
+    return 16.0 * (1.0 - s.v * s.v) * (n[0] * std::cos(0.7) + n[1] * std::sin(0.7));
+  };
+  Pieces pieces(spur(20), grown(made),
+                {term(0.0, 0.0, 1.0), term(0.0, 2.0, 1.0), term(0.0, 0.0, 1.0, 1.0),
+                 term(0.0, 2.0, 1.0, 1.0)});
+  tell_as_one_form(*pieces);
+  ASSERT_EQ(pieces.told().size(), 1U) << pieces.text();
+  EXPECT_TRUE(pieces.has("unnamed_bow")) << pieces.text();
+}
+
+TEST(PiecesToldAsOne, FormsOfAToothThatAreALeanOfEitherFlank) {
+  for (const int side : {1, -1}) {
+    const auto made = [=](auto&, const FlankSpot& s, auto&) {
+      return s.tooth == 5 && s.side == side ? 9.0 * s.u : 0.0;
+    };
+    const FlankChoice flank = side > 0 ? FlankChoice::kLeft : FlankChoice::kRight;
+    Pieces pieces(spur(16), grown(made),
+                  {piece("unnamed_tooth_form", {5.0, 0.0, 0.0, 0.0}, flank),
+                   piece("unnamed_tooth_form", {5.0, 1.0, 0.0, 0.0}, flank),
+                   piece("unnamed_tooth_form", {5.0, 2.0, 0.0, 0.0}, flank)},
+                  6000);
+    tell_forms_of_teeth(*pieces);
+    ASSERT_EQ(pieces.told().size(), 1U) << pieces.text();
+    EXPECT_EQ(pieces.told().front().shape, (EffectShape{5.0, 1.0, 0.0, 0.0})) << pieces.text();
+  }
+}
+
+TEST(PiecesToldAsOne, BowsOfNeighbouringTeethThatAreAGroove) {
+  const auto made = [](auto&, const FlankSpot& s, auto&) {
+    return s.tooth >= 9 && s.tooth <= 13 ? -14.0 * std::exp(-std::pow((s.u - 0.2) / 0.25, 2)) : 0.0;
+  };
+  std::vector<Effect> bows;
+  for (const double tooth : {9.0, 10.0, 11.0, 12.0, 13.0})
+    for (const double degree : {0.0, 2.0})
+      bows.push_back(piece("unnamed_tooth_form", {tooth, degree, 0.0, 0.0}));
+  Pieces pieces(spur(20), grown(made), bows, 6000);
+  tell_forms_of_some_teeth(*pieces);
+  ASSERT_EQ(pieces.told().size(), 1U) << pieces.text();
+  EXPECT_EQ(pieces.told().front().shape[0], 9.0) << pieces.text();
+  EXPECT_EQ(pieces.told().front().shape[1], 5.0) << pieces.text();
+}
+
+TEST(PiecesToldAsOne, TwoPartsOfTheGearThatLeanAlike) {
+  const auto made = [](auto&, const FlankSpot& s, auto&) { return 8.0 * s.v; };
+  Pieces pieces(spur(20), grown(made),
+                {piece("unnamed_sector", {4.0, 12.0, 0.0, 1.0, 0.0}),
+                 piece("unnamed_sector", {16.0, 8.0, 0.0, 1.0, 0.0})});
+  tell_names_in_two_parts(*pieces);
+  ASSERT_EQ(pieces.told().size(), 1U) << pieces.text();
+  EXPECT_TRUE(pieces.has("taper")) << pieces.text();
+}
+
+TEST(PiecesToldAsOne, WavesThatAreTheSideTowardsOneDirectionBesideACrowning) {
+  const auto made = [](const MadeGear& g, const FlankSpot& s, auto&) {
+    const Vec3 n = normal_at(g, s);
+    const double facing = n[0] * std::cos(2.0) + n[1] * std::sin(2.0);
+    return (facing > 0.0 ? 20.0 * facing : 0.0) + 8.0 * (1.0 - s.v * s.v);
+  };
+  std::vector<Effect> waves{term(0.0, 0.0), piece("crowning", {})};
+  for (const double order : {1.0, 2.0})
+    for (const double opposite : {0.0, 1.0}) waves.push_back(term(0.0, 0.0, order, opposite));
+  Pieces pieces(spur(20), grown(made), waves);
+  EXPECT_TRUE(tell_as_facing(*pieces));
+  EXPECT_TRUE(pieces.has("crowning")) << pieces.text();
+  EXPECT_TRUE(pieces.has("unnamed_facing_one_side")) << pieces.text();
+  EXPECT_TRUE(std::none_of(pieces.told().begin(), pieces.told().end(), [](const Effect& effect) {
+    return effect.order() > 0.0;
+  })) << pieces.text();
+}
+
+// A slope that the teeth do not share, or that is the mean of a drift, is no cause; a larger one
+// beside the same is.
+TEST(PiecesToldAsOne, ASlopeIsNoCauseWhereItIsAMean) {
+  for (const double slope : {4.0, 24.0}) {
+    const auto in_turn = [=](auto&, const FlankSpot& s, auto&) {
+      return (slope + (s.tooth % 3 == 1 ? 24.0 : -12.0)) * s.v;
+    };
+    Pieces turns(spur(21), grown(in_turn), {piece("taper", {})});
+    tell_what_teeth_do_not_share(*turns);
+    EXPECT_EQ(turns.told().front().family->named, slope > 20.0) << turns.text();
+    const auto drifts = [=](const MadeGear& g, const FlankSpot& s, auto&) {
+      return (slope + 16.0 * gone(g, s.tooth, 1) / g.teeth - 8.0) * s.v;
+    };
+    Pieces drift(spur(20), grown(drifts),
+                 {piece("taper", {}), piece("unnamed_ramp", {1.0, 0.0, 1.0, 0.0})});
+    tell_means_of_odd_forms(*drift);
+    EXPECT_EQ(drift.told().front().family->named, slope > 20.0) << drift.text();
+  }
+}
+
+TEST(PiecesToldAsOne, WavesAndALevelThatAreACombBesideATaper) {
+  const auto made = [](auto&, const FlankSpot& s, auto&) {
+    return (s.tooth % 4 == 3 ? 12.0 : 0.0) + 5.0 * s.v;
+  };
+  Pieces pieces(spur(20), grown(made),
+                {piece("taper", {}), term(0.0, 0.0), term(0.0, 0.0, 5.0), term(0.0, 0.0, 10.0)});
+  EXPECT_TRUE(tell_as_repeating(*pieces));
+  EXPECT_TRUE(pieces.has("taper")) << pieces.text();
+  EXPECT_TRUE(pieces.has("unnamed_comb")) << pieces.text();
+  EXPECT_EQ(pieces.told().size(), 2U) << pieces.text();
+}
+
+// What stands before it in the answer says nothing of it.
+TEST(PiecesNamed, ABendThatIsATipReliefBesideATaper) {
+  const auto made = [](auto&, const FlankSpot& s, auto&) {
+    return 5.0 * s.v - 12.0 * std::pow(std::max(0.5 * (s.u + 1.0) - 0.5, 0.0) / 0.5, 2);
+  };
+  const loop::FlankGeometry geometry = geometry_of(spur(20));
+  for (const Effect& bend : loop::forms_along(geometry, 0.0, FlankChoice::kBoth, false)) {
+    if (bend.family != loop::find_family("unnamed_bend") || bend.shape[2] != 1.0) continue;
+    Pieces pieces(spur(20), grown(made), {piece("taper", {}), bend});
+    name_forms_beside_names(*pieces);
+    EXPECT_TRUE(pieces.has("tip_relief")) << pieces.text();
+    EXPECT_TRUE(pieces.has("taper")) << pieces.text();
+    break;
+  }
+}
+
+TEST(PiecesNamed, AWaveOfThePitchBesideADriftOfOneFlank) {
+  const auto made = [](const MadeGear& g, const FlankSpot& s, auto&) {
+    return s.side * 6.0 * std::cos(4.0 * M_PI * s.tooth / g.teeth) +
+           (s.side > 0 ? levelled_um(g, s.tooth) : 0.0);
+  };
+  Effect drift = levelling(loop::gear_effects::kFirstOfDrift);
+  drift.flank = FlankChoice::kLeft;
+  Pieces pieces(spur(20), grown(made), {drift, term(0.0, 0.0, 2.0, 1.0)});
+  name_what_is_settled(*pieces);
+  EXPECT_TRUE(pieces.has("pitch_wave")) << pieces.text();
+}
+
+TEST(PiecesNamed, ASagThatIsASlopeAndABow) {
+  const auto made = [](auto&, const FlankSpot& s, auto&) {
+    return 6.0 * s.u + 9.0 * (1.0 - s.u * s.u);
+  };
+  Pieces pieces(
+      spur(20), grown(made),
+      {loop::sags_along(geometry_of(spur(20)), 0.0, FlankChoice::kBoth).back(), term(0.0, 0.0)});
+  name_what_is_settled(*pieces);
+  // (a scale beside a level slopes over the profile, too)
+  EXPECT_TRUE(pieces.has("profile_crowning")) << pieces.text();
+  EXPECT_FALSE(pieces.has("unnamed_sag")) << pieces.text();
+}
+
+// It moves the whole gear: folds that hold a few odd teeth predict it badly. One that is not there
+// is not taken up.
+TEST(PiecesNamed, AnEccentricityThatWentIsTakenUpAgainWhereItIsThere) {
+  for (const bool off_axis : {true, false}) {
+    const auto crowned = [](auto&, const FlankSpot& s, auto&) { return 8.0 * (1.0 - s.v * s.v); };
+    std::vector<Process> made{grown(crowned)};
+    if (off_axis) made.push_back(off_centre(12.0, 40.0));
+    Pieces pieces(spur(20), made, {piece("crowning", {})});
+    EXPECT_EQ(take_up_again(*pieces, {piece("eccentricity", {})}), off_axis);
+  }
+}
+
+}  // namespace
+}  // namespace trueflank::test
