@@ -8,7 +8,6 @@
 #include "trueflank/loop/gear/part/choice.h"
 #include "trueflank/loop/gear/part/forms_around.h"
 #include "trueflank/loop/gear/part/one_flank.h"
-#include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/other_starts.h"
 #include "trueflank/loop/gear/part/parts_of_forms.h"
 #include "trueflank/loop/gear/part/records.h"
@@ -78,8 +77,7 @@ void explain_part(PartModel& model) {
   if (scan_for_more && begins_better(model)) return;
   constexpr int kRounds = 4, kMostBans = 6;
   if (scan_for_more) explain_what_is_left(model);
-  const bool has_whole_form = scan_for_more && explain_with_whole_forms(model);
-  if (has_whole_form) explain_what_is_left(model);
+  if (scan_for_more) explain_with_whole_forms(model);
   if (scan_for_more && drop_idle_forms(model)) explain(model);
   for (int round = 0; scan_for_more && round < kRounds && drop_doubtful_orders(model); ++round)
     explain(model);
@@ -102,7 +100,6 @@ void explain_part(PartModel& model) {
   take_other_start(model);
   take_form_around(model);
   tell_what_one_flank_has(model);
-  if (has_whole_form) drop_idle_beside_one_form(model);
   name_what_is_settled(model);
   drop_names_that_may_be_nothing(model);
   model.remainder = remainder_of(model, model.effects, RemainderOf::kAll);

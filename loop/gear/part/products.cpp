@@ -273,6 +273,8 @@ void Products::ask_jumps(const Indices& set, const LikeliestProducts& likeliest,
   const std::vector<Effect> names =
       common_names_beside(others, face == 0 ? Runs::kOverProfile : Runs::kOverFace);
   for (const bool beside_names : {false, true}) {
+    // (few traces do not choose such names anew)
+    if (beside_names && model_.table->points_mm.empty()) continue;
     std::vector<Effect> beside;
     if (beside_names) beside = names;
     ask(set, likeliest.jumps(face, beside_names), 0.0, beside);

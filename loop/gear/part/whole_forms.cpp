@@ -288,12 +288,10 @@ std::vector<Effect> cheapest_one_form(const PartModel& model,
   return best;
 }
 
-bool explain_with_whole_forms(PartModel& model) {
+void explain_with_whole_forms(PartModel& model) {
   constexpr int kMost = 3;
-  if (model.options.joined || model.table->rows.empty()) return false;
-  int round = 0;
-  for (; round < kMost && take_up_whole_forms(model); ++round) explain(model);
-  return round > 0;
+  if (model.options.joined || model.table->rows.empty()) return;
+  for (int round = 0; round < kMost && take_up_whole_forms(model); ++round) explain(model);
 }
 
 }  // namespace trueflank::loop

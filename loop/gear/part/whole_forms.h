@@ -13,7 +13,7 @@ namespace trueflank::loop {
     const std::vector<Effect>& forms, const std::vector<Effect>& beside,
     std::vector<std::size_t>& these);
 /// Whole forms in place of the pieces that were taken up one by one, and all else chosen anew
-/// beside them. True where there were some.
-bool explain_with_whole_forms(PartModel& model);
+/// beside them.
+void explain_with_whole_forms(PartModel& model);
 
 }  // namespace trueflank::loop
