@@ -188,6 +188,23 @@ TEST(CrossedForm, OfAnOrderMayHaveAPhaseOfEachFlank) {
   EXPECT_EQ(result.effects.size(), 2U) << list(result);
 }
 
+TEST(CrossedForm, OfAnOrderThatFadesEvenlySaysWhichEndIsGood) {
+  expect_one(scanned_with(spur(31), grown([](const MadeGear& g, const FlankSpot& s, auto&) {
+                            return 18.0 * std::cos(5.0 * centre_rad(g, s) - 1.0) * (1.0 - up(s.v));
+                          }),
+                          35, 4000),
+             {"5 times per turn, more and more evenly from the upper end on towards the lower end",
+              "most at 11 deg first"});
+}
+
+TEST(CrossedForm, OfOppositeFlanksIsATwistOfOneEnd) {
+  expect_one(scanned_with(spur(30), grown([](auto&, const FlankSpot& s, auto&) {
+                            return s.side * 24.0 * s.u * std::pow(std::max(0.0, s.v), 1.5);
+                          }),
+                          36, 4000),
+             {"the profile leans more and more", "towards the upper end, opposite on the two"});
+}
+
 // Two names are two names, though their sum may be near a product.
 TEST(CrossedForm, IsNotMadeOfNames) {
   const MadeGear gear = spur(26);

@@ -129,5 +129,73 @@ TEST(SoftStep, IsNotMadeOfASharpOneNorOfAnS) {
   EXPECT_FALSE(tells_of(end, "a step")) << list(end);
 }
 
+int times_told(const loop::LoopResult& result, const std::string& words) {
+  const std::string text = list(result);
+  int count = 0;
+  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1))
+    ++count;
+  return count;
+}
+
+// Plates of one gear that are turned against each other.
+TEST(SeveralSteps, AreEachToldWithHeightAndSize) {
+  const MadeGear gear = spur(29);
+  const auto result =
+      close(gear,
+            scan_of(gear, {stepped(21.0, -0.3, 1e-6, true), stepped(14.5, 0.3, 1e-6, true)},
+                    scanned(2000, 2.0, 31)),
+            true);
+  for (const std::string height : {"3.5", "6.5"})
+    EXPECT_TRUE(tells_of(result, "at a height of " + height +
+                                     " mm, opposite on the two flanks: above it the teeth stand "
+                                     "counter-clockwise"))
+        << list(result);
+  EXPECT_EQ(times_told(result, "the same on every tooth"), 2) << list(result);
+  EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
+}
+
+// A filament that snags: the wall sinks at once and recovers.
+TEST(FadingJump, IsOneForm) {
+  const MadeGear gear = spur(28);
+  const Process snag = grown([](auto&, const FlankSpot& s, auto&) {
+    const double off = s.v + 0.2;
+    return off > 0.0 ? -10.0 * std::exp(-off / 0.4) : 0.0;
+  });
+  const auto result = close(gear, inspection_of(gear, {snag}, traced({1, 10, 19}, 0.8, 32)));
+  EXPECT_TRUE(tells_of(result, "that dies away towards the upper end, within 1.9")) << list(result);
+  EXPECT_TRUE(tells_of(result, "behind it the flanks lie back")) << list(result);
+  EXPECT_EQ(result.effects.size(), 1U) << list(result);
+}
+
+// Material that flows more to one side: on every tooth alike, so of no order around the gear.
+TEST(SkewedBand, OfOppositeFlanksIsOneForm) {
+  const MadeGear gear = spur(30);
+  const Process rolled = grown([](auto&, const FlankSpot& s, auto&) {
+    const double off = s.u / (s.u < 0.0 ? 0.25 : 0.6);
+    return s.side * 10.0 * std::exp(-off * off);
+  });
+  const auto result =
+      close(gear, inspection_of(gear, {rolled}, traced({1, 6, 11, 16, 21, 26}, 0.6, 34)));
+  EXPECT_TRUE(tells_of(result, "a groove or ridge over the profile")) << list(result);
+  EXPECT_TRUE(tells_of(result, "there the teeth stand counter-clockwise")) << list(result);
+  EXPECT_EQ(result.effects.size(), 1U) << list(result);
+}
+
+// An axial slide that sticks and slips.
+TEST(Sawtooth, IsOneFormAndNoLead) {
+  const MadeGear gear = spur(28);
+  for (const bool opposite : {true, false}) {
+    const auto saw = grown([=](auto&, const FlankSpot& s, auto&) {
+      const double at = 1.9 * s.v + 0.3;
+      return (opposite ? s.side : 1) * 8.0 * (2.0 * (at - std::floor(at)) - 1.0);
+    });
+    const auto result = close(gear, scan_of(gear, {saw}, scanned(2500, 2.0, 33)), true);
+    EXPECT_TRUE(tells_of(result, "a sawtooth over the face, period")) << list(result);
+    EXPECT_EQ(result.effects.size(), 1U) << list(result);
+    EXPECT_NEAR(std::abs(parameter(result.effects[0], "amplitude_um").value), 16.0, 0.5)
+        << list(result);
+  }
+}
+
 }  // namespace
 }  // namespace trueflank::test

@@ -108,6 +108,13 @@ namespace trueflank::loop::gear_effects {
   return edge > 0.0 ? 1.0 / (1.0 + std::exp(-4.0 * off / edge)) : off > 0.0 ? 1.0 : 0.0;
 }
 
+/// Nothing before a place, 1 there at once or over the length of an edge, and dying away beyond it.
+[[nodiscard]] double fading_jump(double off, double dies_within, double edge);
+/// 1 at its place, and dying away to either side over a length of its own.
+[[nodiscard]] double skewed_bell(double off, double below, double above);
+/// From one half at a jump evenly to minus one half before the next.
+[[nodiscard]] double sawtooth(double off, double period);
+
 /// False where flanks end before the edge of a step does: that is a rise towards an end.
 [[nodiscard]] bool is_step_with_edge(const FlankGeometry& g, double face, double place_mm,
                                      double edge_mm);

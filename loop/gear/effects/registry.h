@@ -67,6 +67,9 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_bend();
 [[nodiscard]] EffectFamily unnamed_rise();
 [[nodiscard]] EffectFamily unnamed_sag();
+[[nodiscard]] EffectFamily unnamed_fading_jump();
+[[nodiscard]] EffectFamily unnamed_skewed_band();
+[[nodiscard]] EffectFamily unnamed_sawtooth();
 [[nodiscard]] EffectFamily unnamed_dish();
 [[nodiscard]] EffectFamily unnamed_patch();
 [[nodiscard]] EffectFamily unnamed_corner();

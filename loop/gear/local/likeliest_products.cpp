@@ -451,6 +451,21 @@ std::vector<LikelyForms> LikeliestProducts::steps(double face, bool beside_names
   return product_cells::likeliest_steps(cells_->geometry, cells_->teeth, face, beside_names);
 }
 
+std::vector<LikelyForms> LikeliestProducts::jumps(double face, bool beside_names) const {
+  const auto& [g, scan, teeth, profiles, faces, ways] = *cells_;
+  std::vector<LikelyForms> lists =
+      product_cells::likeliest_fading_jumps(g, teeth, face, beside_names);
+  for (LikelyForms& list : product_cells::likeliest_skewed_bands(g, teeth, face, beside_names))
+    lists.push_back(std::move(list));
+  for (LikelyForms& list : product_cells::likeliest_sawteeth(g, teeth, face, beside_names))
+    lists.push_back(std::move(list));
+  return lists;
+}
+
+std::vector<LikelyForms> LikeliestProducts::stairs(double face, bool beside_names) const {
+  return product_cells::likeliest_stairs(cells_->geometry, cells_->teeth, face, beside_names);
+}
+
 std::vector<LikelyForms> LikeliestProducts::waves() const {
   const auto& [g, scan, teeth, profiles, faces, ways] = *cells_;
   return product_cells::likeliest_waves(g, teeth, profiles, faces, product_cells::arounds_of(g),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -56,6 +57,10 @@ class LikeliestProducts {
   /// Steps over the profile (0) or the face (1), the same on every tooth, as the residuals are or
   /// beside slopes and bows: unnamed_step.
   [[nodiscard]] std::vector<LikelyForms> steps(double face, bool beside_names) const;
+  /// The same of jumps that die away, skewed hollows and sawteeth; and of two and more steps and
+  /// rises at the ends, which stand beside each other.
+  [[nodiscard]] std::vector<LikelyForms> jumps(double face, bool beside_names) const;
+  [[nodiscard]] std::vector<LikelyForms> stairs(double face, bool beside_names) const;
   /// The same on every tooth, beside the best of these sets of effects.
   [[nodiscard]] LikelyWavesBeside profile_waves(
       const std::vector<std::vector<Effect>>& besides) const;
@@ -67,5 +72,10 @@ class LikeliestProducts {
   struct Cells;
   std::shared_ptr<const Cells> cells_;
 };
+
+/// True where two of the last so many effects are steps whose edges meet: a hollow; or one is a
+/// rise that reaches far, as slopes and bows do, or up to a step.
+[[nodiscard]] bool are_no_stairs(const FlankGeometry& geometry, const std::vector<Effect>& effects,
+                                 std::size_t count);
 
 }  // namespace trueflank::loop

@@ -16,7 +16,9 @@
 
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/linear_equations.h"
+#include "trueflank/loop/gear/effects/along_flank.h"
 #include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/effects/simple_courses.h"
 #include "trueflank/loop/gear/local/likeliest_products.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/one_form.h"
@@ -33,12 +35,13 @@ using Indices = std::vector<std::size_t>;
 
 /// Sets of what is told: all that is the same on every tooth, and that less each name, and less all
 /// names; empty where nothing of it runs over profile and face at once, or it has fewer values.
-std::vector<Indices> crossed_sets(const PartModel& model, int fewest_values) {
+std::vector<Indices> crossed_sets(const PartModel& model, int fewest_values,
+                                  Flanks flanks = Flanks::kAlike) {
   Indices all, names;
   std::vector<Effect> own;
   bool crossed = false;
   for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
-    const Runs runs = runs_of(model.geometry, model.effects[e]);
+    const Runs runs = runs_of(model.geometry, model.effects[e], flanks);
     if (runs == Runs::kOtherwise) continue;
     all.push_back(e);
     own.push_back(model.effects[e]);
@@ -109,9 +112,11 @@ class Products {
   }
 
   void ask_steps(int face);
+  void ask_jumps(const Indices& set, const LikeliestProducts& likeliest, int face);
   void ask_the_same_on_every_tooth();
   void ask_around_the_gear();
   void ask_orders();
+  void ask_fading_straight(double order, const Indices& set, bool face);
   void ask_profile_waves();
   void ask_scallops();
   void ask_waves();
@@ -224,7 +229,7 @@ void Products::ask(const Indices& set, const std::vector<LikelyForms>& forms, do
       continue;
     const double cost = cost_of(model_, with);
     if (!(cost < least_) || (!beside.empty() && !earns_its_place(with))) continue;
-    if (mends_a_name(with)) continue;
+    if (mends_a_name(with) || are_no_stairs(model_.geometry, with, beside.size() + 1)) continue;
     least_ = cost;
     best_ = std::move(with);
     best_.erase(best_.end() - 1 - std::ssize(beside), best_.end() - 1 - stay);
@@ -257,19 +262,40 @@ void Products::ask_steps(int face) {
     ask(set, alone, 0.0);
     if (is_told_apart(model_, level, others)) ask(set, alone, 0.0, {level});
     ask(set, likeliest.steps(face, true), 0.0, common_names_beside(others, along));
+    ask_jumps(set, likeliest, face);
+  }
+}
+
+/// A jump that dies away, a sawtooth, or several steps at once, which a single step does not lead
+/// to.
+void Products::ask_jumps(const Indices& set, const LikeliestProducts& likeliest, int face) {
+  const std::vector<Effect> others = without(set);
+  const std::vector<Effect> names =
+      common_names_beside(others, face == 0 ? Runs::kOverProfile : Runs::kOverFace);
+  for (const bool beside_names : {false, true}) {
+    // (few traces do not choose such names anew)
+    if (beside_names && model_.table->points_mm.empty()) continue;
+    std::vector<Effect> beside;
+    if (beside_names) beside = names;
+    ask(set, likeliest.jumps(face, beside_names), 0.0, beside);
+    for (const LikelyForms& steps : likeliest.stairs(face, beside_names)) {
+      beside.resize(beside_names ? names.size() : 0);
+      beside.insert(beside.end(), steps.forms.begin(), steps.forms.end() - 1);
+      ask(set, {{steps.gain, {steps.forms.back()}}}, 0.0, beside, std::ssize(steps.forms) - 1);
+    }
   }
 }
 
 /// For all that is the same on every tooth. Where none stands, names that the pieces have taken up
 /// may stand beside it.
 void Products::ask_the_same_on_every_tooth() {
-  constexpr int kFewestValues = 5;
+  constexpr int kFewestValues = 3;
   if (model_.table->points_mm.empty()) return;
-  std::vector<Indices> sets = crossed_sets(model_, kFewestValues);
+  std::vector<Indices> sets = crossed_sets(model_, kFewestValues, Flanks::kOfEither);
   for (Indices& set : sets) {
     // (by how much all flanks stand out is a thing of its own, or chosen anew)
     std::erase_if(set, [&](std::size_t e) {
-      return runs_of(model_.geometry, model_.effects[e]) == Runs::kNowhere;
+      return runs_of(model_.geometry, model_.effects[e], Flanks::kOfEither) == Runs::kNowhere;
     });
     if (set.size() < 2) continue;
     const std::vector<Effect> others = without(set);
@@ -433,6 +459,40 @@ void Products::ask_scallops() {
   }
 }
 
+/// A wave that fades evenly to none at the other end, for a plain one and one that slopes: these
+/// say all that it does, and nobody sees in them that one end is good.
+void Products::ask_fading_straight(double order, const Indices& set, bool face) {
+  using gear_effects::FlankCourse;
+  const std::vector<Effect> others = without(set);
+  std::vector<Effect> own;
+  for (const std::size_t e : set) own.push_back(model_.effects[e]);
+  const double cost_now = cost_of(model_, model_.effects);
+  for (const double towards : {-1.0, 1.0}) {
+    EffectShape shape(2 * FlankCourse::kValues);
+    const double from =
+        gear_effects::place_at(model_.geometry, face ? 1.0 : 0.0, towards > 0.0 ? 0.0 : 1.0);
+    const FlankCourse course{FlankCourse::kKink, from, towards};
+    course.put_in(shape, face ? FlankCourse::kValues : 0);
+    shape.push_back(0.0);
+    shape.push_back(order);
+    const EffectFamily* family = find_family("unnamed_crossed_order");
+    for (const double opposite : {0.0, 1.0})
+      for (const FlankChoice flank :
+           {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
+        if (opposite != 0.0 && flank != FlankChoice::kBoth) continue;
+        shape[shape.size() - 2] = opposite;
+        std::vector<Effect> with = others;
+        with.push_back({family, flank, shape});
+        if (values_of({with.back()}, true) >= values_of(own, true)) continue;
+        const double cost = cost_of(model_, with);
+        if (!(cost < cost_now) || !(cost < least_)) continue;
+        least_ = cost;
+        best_ = std::move(with);
+        these_ = set;
+      }
+  }
+}
+
 /// For what runs along the flanks in waves of one order, and for waves of that order that are alike
 /// on whole flanks, with a name or without: these may be things of their own. Both flanks may have
 /// a phase of their own.
@@ -469,6 +529,8 @@ void Products::ask_orders() {
                        .crossed = profile && face,
                        .beside_plain = set.size() < all.size()};
       ask(set, likeliest.of_order(asked), least);
+      for (const bool over_face : {false, true})
+        if (over_face ? face : profile) ask_fading_straight(order, set, over_face);
       asked.phase_of_each_flank = true;
       for (const LikelyForms& likely : likeliest.of_order(asked)) {
         Effect other = likely.forms.front();
