@@ -258,6 +258,26 @@ TEST(SingleValues, OneFlankOfOneToothStandsOutOfAnIndex) {
   EXPECT_LE(others, 1);
 }
 
+// Each value of an index has a share in its zero, and so a little of every column: that is no tooth
+// of its own.
+TEST(SingleValues, AToothsIntervalIsThatOfItsTwoValues) {
+  constexpr double kHeight = 9.0;
+  const double promised = 2.0 / std::sqrt(2.0);  // two errors of the mean of both flanks
+  int held = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    loop::InspectionData data = index_with(spur(30), seed);
+    for (loop::InspectionRow& row : data.rows)
+      if (row.tooth == 12) row.deviation_um += kHeight;
+    const auto result = close(spur(30), data);
+    const auto* tooth = find(result, "single_tooth");
+    ASSERT_NE(tooth, nullptr) << list(result);
+    const loop::Parameter& amount = parameter(*tooth, "amount_um");
+    EXPECT_NEAR(0.5 * (amount.high - amount.low), promised, 0.35 * promised) << seed;
+    held += amount.low <= kHeight && kHeight <= amount.high ? 1 : 0;
+  }
+  EXPECT_GE(held, 17);
+}
+
 TEST(SingleValues, NoToothStandsOutOfNoiseOrOfTeethThatAreAllLouder) {
   int of_white = 0, of_louder = 0;
   for (unsigned seed = 1; seed <= 40; ++seed) {

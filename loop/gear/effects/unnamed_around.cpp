@@ -449,6 +449,32 @@ EffectFamily unnamed_drift_of_some() {
   return f;
 }
 
+namespace {
+
+/// A wave of some teeth that stands out to one way on all of them.
+struct OneWay {
+  int sign = 0;   ///< 0: it does not, or its phase is not known
+  int tooth = 0;  ///< where it stands out most
+};
+OneWay one_way_of_wave(const ToldForm& told) {
+  constexpr double kNothing = 0.2;  // of the largest: what an end may have of the other way
+  if (told.amounts.size() < 2) return {};
+  double most = 0.0, least = 0.0, middle = 0.0;
+  for (double since = 0.0; since < told.shape[1]; since += 1.0) {
+    const double angle = kTwoPi * told.shape[2] * since / told.geometry.teeth(),
+                 um = told.amounts[0] * std::cos(angle) + told.amounts[1] * std::sin(angle);
+    if (std::abs(um) > std::max(most, -least)) middle = since;
+    most = std::max(most, um);
+    least = std::min(least, um);
+  }
+  if (std::min(most, -least) > kNothing * std::max(most, -least)) return {};
+  double tooth = told.shape[0];
+  move_tooth(told.geometry, middle, tooth);
+  return {most > -least ? 1 : -1, static_cast<int>(tooth)};
+}
+
+}  // namespace
+
 EffectFamily unnamed_wave_of_some() {
   EffectFamily f = described("unnamed_wave_of_some",
                              {"first_tooth", "teeth", "periods_per_turn", "opposite_flanks"});
@@ -474,8 +500,15 @@ EffectFamily unnamed_wave_of_some() {
     const EffectShape& shape = told.shape;
     double after = shape[0];
     move_tooth(told.geometry, shape[1], after);
-    return "over " + from_to(told.geometry, shape[0], after) + " alone the teeth stand " +
-           (shape[3] != 0.0 ? "ahead and behind" : "high and low") +
+    const std::string teeth =
+        "over " + from_to(told.geometry, shape[0], after) + " alone the teeth ";
+    if (const OneWay way = one_way_of_wave(told); way.sign != 0) {
+      return teeth +
+             (shape[3] != 0.0 ? "stand aside, " + turned(way.sign)
+                              : std::string(way.sign > 0 ? "stand out" : "lie back")) +
+             printed(", most about tooth %d, in half a wave", way.tooth);
+    }
+    return teeth + "stand " + (shape[3] != 0.0 ? "ahead and behind" : "high and low") +
            printed(" in waves of %.3g a turn, %.1f teeth long", shape[2],
                    told.geometry.teeth() / shape[2]);
   };

@@ -96,16 +96,18 @@ void PointFit::spread_between_units(const Eigen::MatrixXd& normal) {
 /// Of a column that few units bear: how far the means of the other units scatter, against what
 /// their weights promise.
 void PointFit::spread_beside(int k, double normal, double inverse) {
+  // (of values on one zero each has a little of every column)
+  constexpr double kBears = 0.02;
   const int p = columns_;
   double scatter = 0.0, count = 0.0;
   std::set<int> kinds;
   for (std::size_t b = 0; b < unit_grams_.size(); ++b)
-    if (unit_grams_[b].size() > 0 && unit_grams_[b](k, k) > 1e-6 * normal &&
+    if (unit_grams_[b].size() > 0 && unit_grams_[b](k, k) > kBears * normal &&
         unit_kind_[b] != static_cast<int>(ObservationKind::kProfile) &&
         unit_kind_[b] != static_cast<int>(ObservationKind::kHelix))
       kinds.insert(unit_kind_[b]);
   for (std::size_t b = 0; b < unit_grams_.size(); ++b) {
-    if (unit_grams_[b].size() == 0 || unit_grams_[b](k, k) > 1e-6 * normal) continue;
+    if (unit_grams_[b].size() == 0 || unit_grams_[b](k, k) > kBears * normal) continue;
     if (!kinds.contains(unit_kind_[b])) continue;
     const double sum_b = unit_sums_[b][p] - coefficients_.dot(unit_sums_[b].head(p));
     scatter += sum_b * sum_b / unit_sums_[b][p + 1];
