@@ -69,7 +69,7 @@ EffectFamily unnamed_fading_jump() {
                            shape[2], shape[kEdge]);
       });
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
-    constexpr double kEnds = 0.03, kShortest = 0.01, kLongest = 0.6, kSharpest = 0.005,
+    constexpr double kEnds = 0.06, kShortest = 0.01, kLongest = 0.6, kSharpest = 0.005,
                      kSoftest = 0.1;
     const double range = std::abs(range_mm(g, shape[0])), edge = shape[kEdge];
     std::vector<EffectShape> shapes = places_beside(g, shape, kFineMoves);

@@ -136,9 +136,14 @@ void doubt_size_of_flanks(PartModel& model) {
       std::any_of(model.table->rows.begin(), model.table->rows.end(),
                   [](const Observation& row) { return row.kind != ObservationKind::kScanFlank; }))
     return;
+  const auto runs_over_profile = [&](const Effect& effect) {
+    return effect.order() == 0.0 && runs_of(model.geometry, effect) == Runs::kOverProfile;
+  };
+  const auto bends = [&](const Effect& effect) {
+    return effect.columns() > 1 || bends_over_profile(model.geometry, effect);
+  };
   if (std::none_of(told, model.effects.end(), [&](const Effect& effect) {
-        return effect.order() == 0.0 && runs_of(model.geometry, effect) == Runs::kOverProfile &&
-               (effect.columns() > 1 || bends_over_profile(model.geometry, effect));
+        return runs_over_profile(effect) && bends(effect);
       }))
     return;
   PartOptions options = model.options;
@@ -150,6 +155,11 @@ void doubt_size_of_flanks(PartModel& model) {
   if (measured->is_displaced) undo_displacement(model.geometry, measured.own());
   PartModel other(model.geometry, std::move(measured), std::move(options));
   explain_part(other);
+  // (with a lean it is the same thickness and lean, as two)
+  if (std::any_of(other.effects.begin(), other.effects.end(), [&](const Effect& effect) {
+        return runs_over_profile(effect) && !bends(effect);
+      }))
+    return;
   // (a body that moved has patches, and so weights, of its own: errors are compared, not costs)
   const auto errors_um = [](const PartModel& one) {
     return fit_of(one, one.effects)->errors(std::vector<bool>(one.effects.size(), true)).rms_um;
