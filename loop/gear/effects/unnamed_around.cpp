@@ -293,7 +293,8 @@ EffectFamily unnamed_saw() {
   set_columns(f, {[](const FlankGeometry& g, int tooth, const EffectShape& shape, double* factor) {
                     const int every = static_cast<int>(shape[0]);
                     const int since = teeth_since(g, tooth, shape[1]) % every;
-                    factor[0] = static_cast<double>(since) / every - 0.5;
+                    // (from the first tooth of a run to its last)
+                    factor[0] = static_cast<double>(since) / (every - 1) - 0.5;
                   },
                   form_at(2)});
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
