@@ -175,8 +175,7 @@ struct Nameless {
 TEST(HiddenEffects, WithoutANameAreDescribedAndGivenNoCause) {
   const MadeGear gear = spur(20);
   const std::vector<Nameless> cases = {
-      {"saddle", "crowned over the face",
-       grown([](const MadeGear& g, const FlankSpot& s, auto&) {
+      {"saddle", "crowned over the face", grown([](const MadeGear& g, const FlankSpot& s, auto&) {
          return 14.0 * (s.v * s.v - 1.0 / 3.0) * std::cos(2.0 * 2.0 * M_PI * (s.tooth - 1) / g.teeth);
        })},
       {"lean twice per turn", "twice per turn",
@@ -184,8 +183,10 @@ TEST(HiddenEffects, WithoutANameAreDescribedAndGivenNoCause) {
          return 12.0 * s.v * std::cos(2.0 * 2.0 * M_PI * (s.tooth - 1) / g.teeth - 0.7);
        })},
       {"S over the profile", "S-shaped over the profile",
-       grown([](auto&, const FlankSpot& s, auto&) { return 14.0 * (s.u * s.u * s.u - 0.6 * s.u); })},
-      {"thickness wave", "equal on both flanks",
+       grown(
+           [](auto&, const FlankSpot& s, auto&) { return 14.0 * (s.u * s.u * s.u - 0.6 * s.u); })},
+      // (nothing at the root form)
+      {"thickness wave", "5 times per turn, more and more evenly from the root on towards the tip",
        grown([](const MadeGear& g, const FlankSpot& s, auto&) {
          return 12.0 * std::cos(5.0 * 2.0 * M_PI * (s.tooth - 1) / g.teeth) * (1.0 + s.u);
        })}};

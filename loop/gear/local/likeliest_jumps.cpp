@@ -367,6 +367,9 @@ std::vector<LikelyForms> likeliest_stairs(const FlankGeometry& g, const OfTeeth&
     }
     return sum;
   };
+  // (waves on a part of the way are followed by steps, too, and much of them is left)
+  constexpr double kLeft = 0.15, kByChance = 2.0 * kOfBoth;
+  const double all = flanks.values().squaredNorm();
   std::vector<LikelyForms> stairs;
   double taken = 0.0;
   while (chosen.size() < kMost) {
@@ -383,7 +386,7 @@ std::vector<LikelyForms> likeliest_stairs(const FlankGeometry& g, const OfTeeth&
     const double now = taken_by(chosen);
     if (!(now - taken > kFewest * now)) break;
     taken = now;
-    if (chosen.size() == 1) continue;
+    if (chosen.size() == 1 || all - now > kLeft * all + kByChance) continue;
     LikelyForms list{.gain = now};
     for (const std::size_t one : chosen)
       list.forms.push_back(effect_of(columns.forms[one], forms, ways));

@@ -324,10 +324,12 @@ RunOfTeeth longest_run(const std::vector<std::pair<int, std::size_t>>& teeth, in
 }
 
 /// The swelling or sector that says best what some single teeth say, if it leaves little of it;
-/// where the teeth leave nothing that others share, if it costs no more.
+/// where the teeth leave nothing that others share, if it says as much for its values.
 std::optional<Effect> form_of_teeth(const PartModel& model, const std::vector<Effect>& rest,
                                     FlankChoice flank, int first, int count) {
-  constexpr double kNearly = 0.1;
+  constexpr double kNearly = 0.1, kNothing = 9.0, kValue = 8.0;  // chi-square
+  constexpr double kValuesOfForm = 3.0;                          // a place, a width, a height
+  const auto teeth = static_cast<double>(model.effects.size() - rest.size());
   std::vector<Effect> tried{
       {find_family("unnamed_sector"), flank, {double(first), double(count), 0.0, 0.0, 0.0}}};
   for (double middle = -1.0; middle <= 1.0; middle += 0.5)
@@ -337,23 +339,37 @@ std::optional<Effect> form_of_teeth(const PartModel& model, const std::vector<Ef
                        {first + 0.5 * (count - 1) + middle, half * count, 0.0, 0.0}});
   std::vector<Effect> with = rest;
   with.emplace_back();
-  std::size_t best = 0;
+  Effect best;
   double least = 1e300;
-  for (std::size_t i = 0; i < tried.size(); ++i) {
-    with.back() = tried[i];
-    const double left =
-        PointFit(model.geometry, model.table, model.patches, with).residual_square();
-    if (left >= least) continue;
-    least = left;
-    best = i;
+  const auto try_all = [&](const std::vector<Effect>& forms) {
+    for (const Effect& form : forms) {
+      with.back() = form;
+      const double left =
+          PointFit(model.geometry, model.table, model.patches, with).residual_square();
+      if (left >= least) continue;
+      least = left;
+      best = form;
+    }
+  };
+  try_all(tried);
+  if (best.family == find_family("unnamed_dent")) {
+    const Effect about = best;
+    tried.clear();
+    for (const double middle : {-0.25, -0.1, 0.0, 0.1, 0.25})
+      for (const double wider : {0.85, 0.93, 1.0, 1.08, 1.17}) {
+        tried.push_back(about);
+        tried.back().shape[0] += middle;
+        tried.back().shape[1] *= wider;
+      }
+    try_all(tried);
   }
-  with.back() = tried[best];
+  with.back() = best;
   const double all = fit_of(model, model.effects)->residual_square();
   if (least > all + kNearly * (fit_of(model, rest)->residual_square() - all) ||
-      (cost_of(model, with) > cost_of(model, model.effects) &&
+      (least > all + kNothing + kValue * (teeth - kValuesOfForm) &&
        !is_shared(model, shared_beside(model, model.effects))))
     return {};
-  return tried[best];
+  return best;
 }
 
 /// Beside a dent or swelling of a few teeth, a form of some, or a tooth that stands aside, a single
