@@ -571,6 +571,13 @@ bool tell_as_corner(PartModel& model) {
   for (const Indices& these : crossed_sets(model, kValuesOfCorner + 1))
     for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight})
       if (put_one_form_for(model, these, corners(model.geometry, flank))) return true;
+  // (two courses that are most at one corner follow a line across it)
+  constexpr int kMoreValues = 2;
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e)
+    if (model.effects[e].family == find_family("unnamed_crossed") &&
+        put_one_form_for(model, {e}, corners(model.geometry, model.effects[e].flank), {},
+                         kMoreValues))
+      return true;
   return false;
 }
 
