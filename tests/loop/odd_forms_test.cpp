@@ -111,7 +111,7 @@ TEST(OddForms, AToolThatIsDressedAgainAndAgainIsADriftAndNoPitchWave) {
     EXPECT_NE(list(result).find("begins anew every 10 teeth"), std::string::npos) << list(result);
     for (const auto& effect : result.effects)  // from the first tooth of a run to its last
       if (effect.description.find("begins anew every 10 teeth") != std::string::npos)
-        EXPECT_NEAR(effect.terms.front().amplitude(), 4.5, 0.15) << list(result);
+        EXPECT_NEAR(effect.terms.front().amplitude(), 4.5, 0.35) << list(result);
   }
 }
 
