@@ -270,8 +270,14 @@ void Products::ask_steps(int face) {
 /// to.
 void Products::ask_jumps(const Indices& set, const LikeliestProducts& likeliest, int face) {
   const std::vector<Effect> others = without(set);
-  const std::vector<Effect> names =
-      common_names_beside(others, face == 0 ? Runs::kOverProfile : Runs::kOverFace);
+  const Runs along = face == 0 ? Runs::kOverProfile : Runs::kOverFace;
+  // (a name with a place and a width of its own stood for some of what the pieces are)
+  if (std::any_of(others.begin(), others.end(), [&](const Effect& other) {
+        return other.family->named && other.family->shape_is_continuous && other.shape.size() > 1 &&
+               runs_of(model_.geometry, other, Flanks::kOfEither) == along;
+      }))
+    return;
+  const std::vector<Effect> names = common_names_beside(others, along);
   for (const bool beside_names : {false, true}) {
     // (few traces do not choose such names anew)
     if (beside_names && model_.table->points_mm.empty()) continue;
