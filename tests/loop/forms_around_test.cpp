@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -176,6 +177,26 @@ TEST(FormsAround, EveryThirdToothOfAScanIsNoWaveBesideThickerTeeth) {
     EXPECT_EQ(result.effects.size(), 2U) << list(result);
     EXPECT_NE(find(result, "eccentricity"), nullptr) << list(result);
   }
+}
+
+// Half a wave stands out to one way: that is said, and on which tooth most.
+TEST(FormsAround, HalfAWaveOfSomeTeethSaysWhichWay) {
+  const auto g = geometry_of(spur(24));
+  const auto* waves = loop::find_family("unnamed_wave_of_some");
+  const auto told_of = [&](double periods, double opposite, const std::vector<double>& amounts) {
+    const loop::EffectShape shape{5, 9, periods, opposite};
+    return waves->words({g, shape, loop::FlankChoice::kBoth, amounts});
+  };
+  EXPECT_THAT(
+      told_of(1.5, 0, {0.0, 3.0}),
+      testing::HasSubstr("over teeth 5 to 13 alone the teeth stand out, most about tooth 9"));
+  EXPECT_THAT(told_of(1.5, 0, {0.0, -3.0}),
+              testing::HasSubstr("the teeth lie back, most about tooth 9"));
+  EXPECT_THAT(told_of(1.5, 1, {0.0, 3.0}),
+              testing::HasSubstr("stand aside, counter-clockwise, most"));
+  EXPECT_THAT(told_of(1.5, 1, {0.0, -3.0}), testing::HasSubstr("stand aside, clockwise, most"));
+  EXPECT_THAT(told_of(3.0, 1, {0.0, 3.0}),
+              testing::HasSubstr("ahead and behind in waves of 3 a turn"));
 }
 
 }  // namespace

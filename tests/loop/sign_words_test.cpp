@@ -601,20 +601,5 @@ TEST(NotesOnLouderFlanks, AreOneForManyTeeth) {
   EXPECT_EQ(loop::notes_on(places).size(), 2U);
 }
 
-// Half a wave stands out to one way: that is said, and on which tooth most.
-TEST(SignWords, OfHalfAWaveOfSomeTeeth) {
-  const auto g = geometry_of(spur(24));
-  const auto* waves = loop::find_family("unnamed_wave_of_some");
-  const auto told_of = [&](double periods, double opposite, std::vector<double> amounts) {
-    return told(g, {waves, FlankChoice::kBoth, {5, 9, periods, opposite}}, std::move(amounts));
-  };
-  EXPECT_THAT(told_of(1.5, 0, {0.0, 3.0}),
-              HasSubstr("over teeth 5 to 13 alone the teeth stand out, most about tooth 9"));
-  EXPECT_THAT(told_of(1.5, 0, {0.0, -3.0}), HasSubstr("the teeth lie back, most about tooth 9"));
-  EXPECT_THAT(told_of(1.5, 1, {0.0, 3.0}), HasSubstr("stand aside, counter-clockwise, most"));
-  EXPECT_THAT(told_of(1.5, 1, {0.0, -3.0}), HasSubstr("stand aside, clockwise, most"));
-  EXPECT_THAT(told_of(3.0, 1, {0.0, 3.0}), HasSubstr("ahead and behind in waves of 3 a turn"));
-}
-
 }  // namespace
 }  // namespace trueflank::test

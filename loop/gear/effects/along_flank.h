@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "trueflank/base/number_text.h"
@@ -126,6 +127,26 @@ inline const TermKey kAlong{"along", TermKey::Kind::kWord, {"profile", "face"}};
 
 [[nodiscard]] inline NeedsToBeSeen needs_of_direction(const EffectShape& shape) {
   return {.along_profile = shape[0] == 0.0, .along_face = shape[0] != 0.0};
+}
+
+/// A form along the flank: 1 where it acts wholly.
+template <class Function>
+EffectFamily along_flank(const std::string& id, std::vector<std::string> shape_names,
+                         Function function) {
+  EffectFamily f = described(id, std::move(shape_names));
+  f.evaluate = [function](const FlankGeometry& g, const Place& p, const EffectShape& shape,
+                          double* c) {
+    c[0] = p.surface == Surface::kFlank ? function(g, p, shape) : 0.0;
+  };
+  f.same_on_every_tooth = [](const EffectShape&) { return true; };
+  f.needs = needs_of_direction;
+  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
+  return f;
+}
+
+/// Of a form of opposite signs on the two flanks.
+[[nodiscard]] inline std::string opposite_words(bool opposite) {
+  return opposite ? ", opposite on the two flanks" : "";
 }
 
 }  // namespace trueflank::loop::gear_effects

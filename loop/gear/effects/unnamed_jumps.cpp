@@ -22,24 +22,14 @@ namespace {
 template <class Function>
 EffectFamily jumping(const std::string& id, std::vector<std::string> shape_names,
                      Function function) {
-  EffectFamily f = described(id, std::move(shape_names));
-  f.evaluate = [function](const FlankGeometry& g, const Place& p, const EffectShape& shape,
-                          double* c) {
-    c[0] = p.surface == Surface::kFlank
-               ? function(g, p, shape) * (shape.back() != 0.0 && p.side < 0 ? -1.0 : 1.0)
-               : 0.0;
-  };
-  f.same_on_every_tooth = [](const EffectShape&) { return true; };
-  f.needs = needs_of_direction;
-  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
-  return f;
+  return along_flank(id, std::move(shape_names),
+                     [function](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
+                       return function(g, p, shape) *
+                              (shape.back() != 0.0 && p.side < 0 ? -1.0 : 1.0);
+                     });
 }
 
 const std::vector<double> kFineMoves{0.05, 0.02, 0.01, 0.005, 0.002, 0.0007, 0.0002};
-
-std::string on_both_opposite(const EffectShape& shape) {
-  return shape.back() != 0.0 ? ", opposite on the two flanks" : "";
-}
 
 }  // namespace
 
@@ -104,7 +94,8 @@ EffectFamily unnamed_fading_jump() {
                                      (shape[0] != 0.0 ? "," : " of roll length,")
                                : "") +
            " that dies away" + towards(shape[0], shape[3]) + ", " +
-           within(told.geometry, shape[0], shape[2], "within ", "") + on_both_opposite(shape) +
+           within(told.geometry, shape[0], shape[2], "within ", "") +
+           opposite_words(shape.back() != 0.0) +
            there("behind it", told.sign(), shape.back() != 0.0);
   };
   return f;
@@ -159,7 +150,8 @@ EffectFamily unnamed_skewed_band() {
                             : printed(", %.2g mm towards smaller and %.2g mm towards larger "
                                       "diameters",
                                       shape[2], shape[3])) +
-           roll + on_both_opposite(shape) + (opposite ? there("there", told.sign(), true) : "");
+           roll + opposite_words(shape.back() != 0.0) +
+           (opposite ? there("there", told.sign(), true) : "");
   };
   return f;
 }
@@ -202,7 +194,7 @@ EffectFamily unnamed_sawtooth() {
     return "the same on every tooth, a sawtooth " + over(shape[0]) +
            printed(", period %.3g mm", shape[2]) + (shape[0] != 0.0 ? "" : " of roll length") +
            ", one of its jumps " + at_place(told.geometry, shape[0], shape[1]) +
-           on_both_opposite(shape) +
+           opposite_words(shape.back() != 0.0) +
            there(shape[0] != 0.0 ? "right above a jump" : "at diameters right beyond a jump",
                  told.sign(), shape.back() != 0.0);
   };

@@ -27,26 +27,10 @@ std::vector<EffectShape> places_inside(const FlankGeometry& g, const EffectShape
   return shapes;
 }
 
-/// A form along the flank: 1 where it acts wholly.
-template <class Function>
-EffectFamily along_flank(const std::string& id, std::vector<std::string> shape_names,
-                         Function function) {
-  EffectFamily f = described(id, std::move(shape_names));
-  f.evaluate = [function](const FlankGeometry& g, const Place& p, const EffectShape& shape,
-                          double* c) {
-    c[0] = p.surface == Surface::kFlank ? function(g, p, shape) : 0.0;
-  };
-  f.same_on_every_tooth = [](const EffectShape&) { return true; };
-  f.needs = needs_of_direction;
-  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
-  return f;
-}
-
 /// True of opposite signs on the two flanks: the shape value behind a form's own.
 bool is_opposite(const EffectShape& shape, std::size_t own) {
   return shape.size() > own && shape[own] != 0.0;
 }
-std::string opposite_words(bool opposite) { return opposite ? ", opposite on the two flanks" : ""; }
 /// The place of a form that is more than a place away from the lower end or the root.
 std::string beyond(double face) { return face != 0.0 ? "above it" : "at larger diameters"; }
 

@@ -300,19 +300,14 @@ std::vector<LikelyForms> best_of_each_way(const FlankGeometry& g, const OnBothFl
 
 }  // namespace
 
-std::vector<LikelyForms> likeliest_fading_jumps(const FlankGeometry& g, const OfTeeth& teeth,
-                                                double face, bool beside_names) {
-  return best_of_each_way(g, OnBothFlanks(teeth, face, beside_names), fading_jumps(g, face));
-}
-
-std::vector<LikelyForms> likeliest_skewed_bands(const FlankGeometry& g, const OfTeeth& teeth,
-                                                double face, bool beside_names) {
-  return best_of_each_way(g, OnBothFlanks(teeth, face, beside_names), skewed_bands(g, face));
-}
-
-std::vector<LikelyForms> likeliest_sawteeth(const FlankGeometry& g, const OfTeeth& teeth,
-                                            double face, bool beside_names) {
-  return best_of_each_way(g, OnBothFlanks(teeth, face, beside_names), sawteeth(g, face));
+std::vector<LikelyForms> likeliest_jumps(const FlankGeometry& g, const OfTeeth& teeth, double face,
+                                         bool beside_names) {
+  const OnBothFlanks flanks(teeth, face, beside_names);
+  std::vector<LikelyForms> lists;
+  for (const std::vector<Jump>& jumps :
+       {fading_jumps(g, face), skewed_bands(g, face), sawteeth(g, face)})
+    for (LikelyForms& list : best_of_each_way(g, flanks, jumps)) lists.push_back(std::move(list));
+  return lists;
 }
 
 std::vector<LikelyForms> likeliest_stairs(const FlankGeometry& g, const OfTeeth& teeth, double face,

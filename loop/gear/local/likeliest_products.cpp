@@ -452,14 +452,7 @@ std::vector<LikelyForms> LikeliestProducts::steps(double face, bool beside_names
 }
 
 std::vector<LikelyForms> LikeliestProducts::jumps(double face, bool beside_names) const {
-  const auto& [g, scan, teeth, profiles, faces, ways] = *cells_;
-  std::vector<LikelyForms> lists =
-      product_cells::likeliest_fading_jumps(g, teeth, face, beside_names);
-  for (LikelyForms& list : product_cells::likeliest_skewed_bands(g, teeth, face, beside_names))
-    lists.push_back(std::move(list));
-  for (LikelyForms& list : product_cells::likeliest_sawteeth(g, teeth, face, beside_names))
-    lists.push_back(std::move(list));
-  return lists;
+  return product_cells::likeliest_jumps(cells_->geometry, cells_->teeth, face, beside_names);
 }
 
 std::vector<LikelyForms> LikeliestProducts::stairs(double face, bool beside_names) const {

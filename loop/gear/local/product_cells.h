@@ -104,15 +104,9 @@ using OfTeeth = std::vector<std::array<OfFlank, 2>>;
 
 /// The same of jumps that die away (unnamed_fading_jump), of skewed hollows (unnamed_skewed_band)
 /// and of sawteeth (unnamed_sawtooth).
-[[nodiscard]] std::vector<LikelyForms> likeliest_skewed_bands(const FlankGeometry& geometry,
-                                                              const OfTeeth& teeth, double face,
-                                                              bool beside_names);
-[[nodiscard]] std::vector<LikelyForms> likeliest_fading_jumps(const FlankGeometry& geometry,
-                                                              const OfTeeth& teeth, double face,
-                                                              bool beside_names);
-[[nodiscard]] std::vector<LikelyForms> likeliest_sawteeth(const FlankGeometry& geometry,
-                                                          const OfTeeth& teeth, double face,
-                                                          bool beside_names);
+[[nodiscard]] std::vector<LikelyForms> likeliest_jumps(const FlankGeometry& geometry,
+                                                       const OfTeeth& teeth, double face,
+                                                       bool beside_names);
 /// Two steps and rises at the ends, three, ...: those of a list stand beside each other.
 [[nodiscard]] std::vector<LikelyForms> likeliest_stairs(const FlankGeometry& geometry,
                                                         const OfTeeth& teeth, double face,

@@ -420,6 +420,7 @@ bool take_tooth_of_both_flanks(PartModel& model, std::size_t e) {
   const auto left_um = PointFit(model.geometry, model.table, model.patches, without).residuals_um();
   if (chance_of_tooth(model.table, both, model.geometry, *left_um) > kToothByChance) return false;
   model.effects[e] = both;
+  model.discovery.chosen[e].group = -1;
   const auto there = std::find(model.effects.begin(), model.effects.end(), other);
   if (there != model.effects.end())
     remove_effect(model, static_cast<std::size_t>(there - model.effects.begin()));
