@@ -5,7 +5,9 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <future>
+#include <memory>
 #include <mutex>
 #include <system_error>
 #include <thread>
@@ -38,6 +40,23 @@ template <class Work>
   return threads;
 }
 
+/// Up to `count` other threads do `work` once each, beside the caller, who does the same work: all
+/// of it where no thread is free in time. They are kept for a moment for whoever asks next, and
+/// there are at most twice as many as processors. `work` throws nothing.
+class Help {
+ public:
+  Help(std::size_t count, std::function<void()> work);
+  Help(const Help&) = delete;
+  Help& operator=(const Help&) = delete;
+  /// Takes back what no thread has begun, and waits for those that have.
+  ~Help();
+
+ private:
+  struct Task;
+  friend class KeptThreads;
+  std::unique_ptr<Task> task_;
+};
+
 /// Asked of the system once: it opens a file for each answer.
 [[nodiscard]] inline std::size_t processors() {
   static const std::size_t known = std::max(1U, std::thread::hardware_concurrency());
@@ -61,7 +80,7 @@ void for_each_piece(std::size_t count, const Work& work) {
     }
   };
   if (count > 0) {
-    const auto others = helping_threads(std::min(count, processors()) - 1, take_pieces);
+    const Help others(std::min(count, processors()) - 1, take_pieces);
     take_pieces();
   }
   if (thrown) std::rethrow_exception(thrown);

@@ -80,9 +80,10 @@ void run_jobs(const std::vector<QueuedJob>& jobs) {
   Queue queue(jobs);
   const std::size_t processors = trueflank::processors();
   if (jobs.empty()) return;
-  auto others = helping_threads(std::min(jobs.size(), processors) - 1, [&queue] { queue.work(); });
-  queue.work();
-  others.clear();  // joins
+  {
+    const Help others(std::min(jobs.size(), processors) - 1, [&queue] { queue.work(); });
+    queue.work();
+  }
   queue.throw_what_was_thrown();
 }
 

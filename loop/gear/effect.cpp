@@ -9,16 +9,11 @@
 
 namespace trueflank::loop {
 
-namespace {
-
-/// The flank that a place is on; both where it is on none.
 FlankChoice flank_of(const FlankGeometry& geometry, const Place& place) {
   if (place.surface != Surface::kFlank) return FlankChoice::kBoth;
   return place.side == flank_side(Flank::kLeft, geometry.gear().kind) ? FlankChoice::kLeft
                                                                       : FlankChoice::kRight;
 }
-
-}  // namespace
 
 int ToldForm::sign() const {
   if (amounts.size() != 1) return 0;
@@ -38,6 +33,35 @@ void Effect::evaluate(const FlankGeometry& geometry, const Place& place, double*
     family->evaluate(geometry, place, shape, values);
   else
     std::fill_n(values, columns(), 0.0);
+}
+
+PreparedEffect::PreparedEffect(const FlankGeometry& geometry, Effect effect)
+    : geometry_(geometry), effect_(std::move(effect)), columns_(effect_.columns()) {
+  if (!effect_.family->form_times_tooth) return;
+  const auto columns = static_cast<std::size_t>(columns_);
+  factors_.resize(static_cast<std::size_t>(geometry.teeth()) * columns);
+  for (int tooth = 1; tooth <= geometry.teeth(); ++tooth) {
+    double* const factors = factors_.data() + static_cast<std::size_t>(tooth - 1) * columns;
+    effect_.family->form_times_tooth->tooth(geometry, tooth, effect_.shape, factors);
+    is_on_tooth_.push_back(
+        std::any_of(factors, factors + columns, [](double f) { return f != 0.0; }));
+  }
+}
+
+void PreparedEffect::evaluate(const Place& place, double* values) const {
+  if (factors_.empty()) {
+    effect_.evaluate(geometry_, place, values);
+    return;
+  }
+  const auto tooth = static_cast<std::size_t>(place.tooth - 1);
+  if (place.surface != Surface::kFlank || !is_on_tooth_[tooth] ||
+      !effect_.acts_on_flank_of(geometry_, place)) {
+    std::fill_n(values, columns_, 0.0);
+    return;
+  }
+  const double* const factors = factors_.data() + tooth * static_cast<std::size_t>(columns_);
+  const double form = effect_.family->form_times_tooth->form(geometry_, place, effect_.shape);
+  for (int k = 0; k < columns_; ++k) values[k] = factors[k] != 0.0 ? factors[k] * form : 0.0;
 }
 
 namespace {

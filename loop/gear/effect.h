@@ -20,6 +20,9 @@ namespace trueflank::loop {
 /// Which flanks an effect acts on.
 enum class FlankChoice { kBoth, kLeft, kRight };
 
+/// The flank that a place is on; both where it is on none.
+[[nodiscard]] FlankChoice flank_of(const FlankGeometry& geometry, const Place& place);
+
 /// What the correction may do with an effect.
 enum class Correctable { kGeometry, kNoCause };
 
@@ -85,6 +88,14 @@ struct EffectFamily : EffectFacts {
     std::function<double(const FlankGeometry&, const Place& on_flank, const EffectShape&)> form;
   };
   std::optional<FormTimesTooth> form_times_tooth = {};
+  /// Of a form that is a course over the profile times one over the face: families of one column of
+  /// the two, and how many values of a course the shape has, one after the other. A value that is
+  /// not 0 follows where the sides are opposite. None: it is no such product.
+  struct ProductOfCourses {
+    const EffectFamily* profile = nullptr;
+    const EffectFamily* face = nullptr;
+    std::size_t values = 0;
+  } product_of_courses = {};
   bool shape_is_continuous = false;  ///< refined after the choice
   bool shape_is_step = false;        ///< the first value is a height at which the deviation jumps
   bool is_one_of_its_shapes = false; ///< once in a model, as when its shape is continuous
@@ -172,6 +183,23 @@ struct Effect {
   }
   /// A term of a description without a name, gathered with others of its order.
   [[nodiscard]] bool is_term() const { return !family->named && !family->local; }
+};
+
+/// An effect asked at many places of one gear: the factors of teeth that its columns have
+/// (EffectFamily::FormTimesTooth) are computed once. The same bits as Effect::evaluate; for any
+/// number of threads.
+class PreparedEffect {
+ public:
+  PreparedEffect(const FlankGeometry& geometry, Effect effect);
+  [[nodiscard]] int columns() const { return columns_; }
+  void evaluate(const Place& place, double* values) const;
+
+ private:
+  const FlankGeometry& geometry_;
+  Effect effect_;
+  int columns_;
+  std::vector<double> factors_;    ///< of the first tooth, the second, ...; empty: no such columns
+  std::vector<bool> is_on_tooth_;  ///< where not all are 0
 };
 
 /// Effects of one family whose columns are asked for side by side: the same as of each by itself but

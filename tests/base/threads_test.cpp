@@ -2,10 +2,13 @@
 #include "trueflank/base/threads.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <atomic>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace trueflank {
@@ -37,6 +40,55 @@ TEST(Threads, ExceptionOfAPieceIsThrownOn) {
     if (i == 7) throw std::runtime_error("the seventh");
   };
   EXPECT_THROW(for_each_piece(100, work), std::runtime_error);
+}
+
+TEST(Threads, WorkWithinWorkIsAllDone) {
+  std::atomic<int> done{0};
+  for_each_piece(20, [&](std::size_t) { for_each_piece(50, [&](std::size_t) { ++done; }); });
+  EXPECT_EQ(done, 1000);
+}
+
+// Nothing is waited for that no thread has begun: the caller has done it.
+TEST(Threads, HelpIsBegunAtMostOnceEachAndEndsWithItsScope) {
+  for (int repeat = 0; repeat < 2000; ++repeat) {
+    std::atomic<int> begun{0}, ended{0};
+    {
+      const Help help(3, [&] {
+        ++begun;
+        ++ended;
+      });
+    }
+    EXPECT_EQ(begun, ended);
+    EXPECT_LE(begun, 3);
+  }
+}
+
+TEST(Threads, SeveralCallersShareThem) {
+  std::atomic<int> done{0};
+  {
+    std::vector<std::jthread> callers;
+    for (int caller = 0; caller < 5; ++caller)
+      callers.emplace_back([&] {
+        for (int repeat = 0; repeat < 200; ++repeat)
+          for_each_piece(7, [&](std::size_t) { ++done; });
+      });
+  }
+  EXPECT_EQ(done, 5 * 200 * 7);
+}
+
+// Of the threads a fork takes the caller's alone along.
+TEST(Threads, AForkedProcessHasItsOwn) {
+  for_each_piece(8, [](std::size_t) {});
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    std::atomic<int> done{0};
+    for_each_piece(100, [&](std::size_t) { ++done; });
+    _exit(done == 100 ? 0 : 1);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
 }
 
 }  // namespace

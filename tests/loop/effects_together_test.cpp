@@ -71,5 +71,34 @@ TEST(EffectsTogether, ColumnsAreTheSameWhereOrdersAreMissing) {
   expect_the_same_together(geometry, effects, places_of(geometry, random));
 }
 
+// Every candidate, and forms of the kinds that are a form times a factor of the tooth.
+TEST(PreparedEffects, AreTheSameBits) {
+  std::mt19937 random(20260162);
+  for (const MadeGear& made : {spur(24), ring(60), helical(131, -25.0)}) {
+    const loop::FlankGeometry geometry = geometry_of(made);
+    std::vector<loop::Effect> effects = loop::candidate_effects(geometry);
+    for (const auto flank :
+         {loop::FlankChoice::kBoth, loop::FlankChoice::kLeft, loop::FlankChoice::kRight}) {
+      effects.push_back({loop::find_family("unnamed_sector"), flank, {4, 6, 0, 1, 0}});
+      effects.push_back({loop::find_family("unnamed_drift_of_some"), flank, {4, 9, 0, 1, 0, 1}});
+      effects.push_back({loop::find_family("unnamed_wave_of_some"), flank, {3, 11, 4.4, 1}});
+      effects.push_back({loop::find_family("unnamed"), flank, {2, 1, 5, 1}});
+      effects.push_back({loop::find_family("unnamed"), flank, {1, 2, 0, 1}});
+    }
+    const std::vector<loop::Place> places = places_of(geometry, random);
+    for (const loop::Effect& effect : effects) {
+      const loop::PreparedEffect prepared(geometry, effect);
+      ASSERT_EQ(prepared.columns(), effect.columns());
+      for (const loop::Place& place : places) {
+        double once[8], alone[8];
+        prepared.evaluate(place, once);
+        effect.evaluate(geometry, place, alone);
+        for (int k = 0; k < effect.columns(); ++k)
+          ASSERT_EQ(once[k], alone[k]) << effect.family->id << " column " << k;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace trueflank::test

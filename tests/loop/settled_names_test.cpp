@@ -186,7 +186,7 @@ TEST(SettledNames, ACoatThatIsThinAtTheRootIsNoSizeOfThePart) {
   for (const auto& [teeth, um, noise_um] : {std::tuple{35, 14.5, 2.2}, {42, 24.0, 4.0}}) {
     const MadeGear gear = spur(teeth);
     const double levels_off = teeth == 35 ? 0.3 : 0.23;
-    const auto coat = grown([=](auto&, const FlankSpot& s, auto&) {
+    const auto coat = grown([levels_off, um = um](auto&, const FlankSpot& s, auto&) {
       return um * (1.0 - std::exp(-share_of(s) / levels_off));
     });
     const auto result = close(gear, scan_of(gear, {coat}, scanned(6000, noise_um, 4)), true);

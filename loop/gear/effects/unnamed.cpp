@@ -111,18 +111,23 @@ EffectFamily unnamed() {
   f.preference = 3;
   f.columns = [](const EffectShape& shape) { return shape[2] == 0.0 ? 1 : 2; };
   f.shapes = free_shapes;
-  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
-    const bool wave = shape[2] != 0.0;
-    c[0] = 0.0;
-    if (wave) c[1] = 0.0;
-    if (p.surface != Surface::kFlank) return;
-    const double value = legendre(static_cast<int>(shape[0]), g.profile_coordinate(p.roll_mm)) *
-                         legendre(static_cast<int>(shape[1]), g.face_coordinate(p.z_mm)) *
-                         (shape[3] != 0.0 ? p.side : 1);
-    const double angle = shape[2] * g.centre_rad(p.tooth);  // one argument: one call for both
-    c[0] = wave ? value * std::cos(angle) : value;
-    if (wave) c[1] = value * std::sin(angle);
-  };
+  set_columns(
+      f, {
+             .tooth =
+                 [](const FlankGeometry& g, int tooth, const EffectShape& shape, double* c) {
+                   c[0] = 1.0;
+                   if (shape[2] == 0.0) return;
+                   const double angle = shape[2] * g.centre_rad(tooth);
+                   c[0] = std::cos(angle);  // one argument: one call for both
+                   c[1] = std::sin(angle);
+                 },
+             .form =
+                 [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
+                   return legendre(static_cast<int>(shape[0]), g.profile_coordinate(p.roll_mm)) *
+                          legendre(static_cast<int>(shape[1]), g.face_coordinate(p.z_mm)) *
+                          (shape[3] != 0.0 ? p.side : 1);
+                 },
+         });
   f.evaluate_together = evaluate_terms;
   f.same_on_every_tooth = [](const EffectShape& shape) { return shape[2] == 0.0; };
   f.order = [](const EffectShape& shape) { return shape[2]; };

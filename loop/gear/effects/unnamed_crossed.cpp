@@ -30,6 +30,22 @@ double on_a_flank(const FlankGeometry& g, const Place& p, const EffectShape& sha
                               FlankCourse::at(shape, kFace).value(g, 1.0, p.z_mm);
 }
 
+/// One of the two by itself.
+EffectFamily course_alone(double face) {
+  EffectFamily f = described("course", {"course", "mm", "towards", "half_mm"});
+  f.evaluate = [face](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = p.surface == Surface::kFlank
+               ? FlankCourse::at(shape, 0).value(g, face, face == 0.0 ? p.roll_mm : p.z_mm)
+               : 0.0;
+  };
+  return f;
+}
+
+EffectFamily::ProductOfCourses of_two_courses() {
+  static const EffectFamily profile = course_alone(0.0), face = course_alone(1.0);
+  return {&profile, &face, FlankCourse::kValues};
+}
+
 bool has(const EffectShape& shape, std::size_t course) {
   return FlankCourse::at(shape, course).kind != FlankCourse::kWhole;
 }
@@ -107,6 +123,7 @@ EffectFamily unnamed_crossed() {
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = on_a_flank(g, p, shape);
   };
+  f.product_of_courses = of_two_courses();
   f.same_on_every_tooth = [](const EffectShape&) { return true; };
   f.needs = needs_of;
   f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
@@ -136,6 +153,7 @@ EffectFamily unnamed_crossed_around() {
                     factor[0] = AroundCourse::at(shape, kAround).value(g, tooth);
                   },
                   on_a_flank});
+  f.product_of_courses = of_two_courses();
   f.needs = needs_of;
   f.faces_a_direction = true;
   f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
@@ -183,6 +201,7 @@ EffectFamily unnamed_crossed_order() {
                     factors[1] = std::sin(angle);
                   },
                   on_a_flank});
+  f.product_of_courses = of_two_courses();
   f.order = [](const EffectShape& shape) { return shape[kOrder]; };
   f.needs = needs_of;
   f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };

@@ -35,6 +35,7 @@ PointFit::PointFit(const FlankGeometry& geometry, const Observations& table, con
   for (const Effect& effect : effects_) {
     first_column_.push_back(columns_);
     columns_ += effect.columns();
+    prepared_.emplace_back(geometry, effect);
   }
   keep_features(known);
   average_zeros();
@@ -69,8 +70,8 @@ void PointFit::features(std::size_t i, double* values, std::size_t effects) cons
     nuisance_.add(place, row.kind, row.source, row.weight, values);
     double one[8];
     for (std::size_t e = 0; e < effects_.size(); ++e) {
-      effects_[e].evaluate(geometry_, place, one);
-      for (int c = 0; c < effects_[e].columns(); ++c)
+      prepared_[e].evaluate(place, one);
+      for (int c = 0; c < prepared_[e].columns(); ++c)
         values[first_column_[e] + c] += row.weight * one[c];
     }
   }
@@ -92,8 +93,7 @@ void PointFit::features_of(const PlacedPoint& placed, const Observation& row, do
 void PointFit::features_at(const Place& place, const Observation& row, double* values,
                            std::size_t effects) const {
   nuisance_.set(place, row.kind, row.source, values);
-  for (std::size_t e = 0; e < effects; ++e)
-    effects_[e].evaluate(geometry_, place, values + first_column_[e]);
+  for (std::size_t e = 0; e < effects; ++e) prepared_[e].evaluate(place, values + first_column_[e]);
 }
 
 /// Means of all columns over every trace: what its unknown zero takes out of them. The hold-out has

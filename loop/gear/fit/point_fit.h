@@ -124,6 +124,7 @@ class PointFit {
   DeviationsOf what_;
   NuisanceColumns nuisance_;
   std::vector<Effect> effects_;
+  std::vector<PreparedEffect> prepared_;  ///< the same
   std::vector<int> first_column_;
   int columns_ = 0;
   std::vector<double> kept_;  ///< features of all rows, one after the other; empty: they are computed anew

@@ -20,11 +20,11 @@ void PointFit::keep_features(Known known) {
   for (std::size_t i = 0; i < table_.rows.size(); i += stride_)
     if (patches_.patch_of_row[i] >= 0) rows.push_back(static_cast<std::uint32_t>(i));
   kept_.assign(table_.rows.size() * width, 0.0);
-  const auto add = [&](const Effect& effect, std::uint32_t asked, double* values) {
+  const auto add = [&](const PreparedEffect& effect, std::uint32_t asked, double* values) {
     double one[8];
     const Observation& row = table_.rows[asked];
     for (std::uint32_t k = 0; k < row.places; ++k) {
-      effect.evaluate(geometry_, table_.places[row.first_place + k], one);
+      effect.evaluate(table_.places[row.first_place + k], one);
       for (int c = 0; c < effect.columns(); ++c) values[c] += row.weight * one[c];
     }
   };
@@ -42,11 +42,11 @@ void PointFit::keep_features(Known known) {
     if (is_in_known(e, known, taken)) continue;
     double* const column = kept_.data() + first_column_[e];
     if (!effect.family->same_on_every_tooth || !effect.family->same_on_every_tooth(effect.shape)) {
-      for (const std::uint32_t i : rows) add(effect, i, column + i * width);
+      for (const std::uint32_t i : rows) add(prepared_[e], i, column + i * width);
       continue;
     }
     if (!alike) alike = alike_rows(table_, rows);
-    for (const std::uint32_t i : alike->first) add(effect, i, column + i * width);
+    for (const std::uint32_t i : alike->first) add(prepared_[e], i, column + i * width);
     for (std::size_t r = 0; r < rows.size(); ++r)
       if (const std::uint32_t first = alike->first[alike->kind[r]]; first != rows[r])
         std::copy_n(column + first * width, effect.columns(), column + rows[r] * width);

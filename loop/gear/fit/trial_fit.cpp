@@ -40,6 +40,7 @@ TrialFit::TrialFit(const FlankGeometry& geometry, const SharedTable& shared, con
     if (trace >= 0) trace_weight_[static_cast<std::size_t>(trace)] += weight;
   }
   all_rows_.key = EffectValues::key_of(all_rows_.rows);
+  if (!table.points_mm.empty()) find_places_of_scan();
   find_runs();
   find_alike(cells);
   const NuisanceColumns nuisance(geometry, table);
@@ -81,6 +82,22 @@ TrialFit::TrialFit(const FlankGeometry& geometry, const SharedTable& shared, con
     gram_ = columns_.transpose() * columns_;
   }
   solve();
+}
+
+/// Of all rows, where each has one.
+void TrialFit::find_places_of_scan() {
+  std::vector<OnFlank> places;
+  for (const std::uint32_t r : all_rows_.rows) {
+    const Observation& row = table_.rows[r];
+    if (row.places != 1 || row.weight != 1.0) return;
+    const Place& place = table_.places[row.first_place];
+    if (place.surface != Surface::kFlank)
+      places.push_back({});
+    else
+      places.push_back(
+          {place.tooth, flank_of(geometry_, place), static_cast<std::int8_t>(place.side)});
+  }
+  all_rows_.places = std::move(places);
 }
 
 /// Where it is worth it: of traces, and of scans in cells.
@@ -180,21 +197,53 @@ void TrialFit::centre(Eigen::MatrixXd& columns) const {
 /// As they are, at some rows of the table.
 EffectValues::Values TrialFit::values_at(const Effect& effect, const RowSet& at) const {
   if (EffectValues::Values known = shared_.values().find(effect, at.key)) return known;
-  const int count = effect.columns();
   const auto values = std::make_shared<Eigen::MatrixXd>(
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(at.rows.size()), count));
-  Eigen::MatrixXd& columns = *values;
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(at.rows.size()), effect.columns()));
+  if (effect.family->product_of_courses.values > 0 && !at.places.empty())
+    put_product_of_courses(effect, at, *values);
+  else
+    put_values(effect, at, *values);
+  shared_.values().keep(effect, at.key, values);
+  return values;
+}
+
+void TrialFit::put_values(const Effect& effect, const RowSet& at, Eigen::MatrixXd& columns) const {
+  const PreparedEffect prepared(geometry_, effect);
+  const int count = prepared.columns();
   double one[8];
   for (std::size_t i = 0; i < at.rows.size(); ++i) {
     const Observation& row = table_.rows[at.rows[i]];
     for (std::uint32_t p = 0; p < row.places; ++p) {
-      effect.evaluate(geometry_, table_.places[row.first_place + p], one);
+      prepared.evaluate(table_.places[row.first_place + p], one);
       for (int k = 0; k < count; ++k)
         columns(static_cast<Eigen::Index>(i), k) += row.weight * one[k];
     }
   }
-  shared_.values().keep(effect, at.key, values);
-  return values;
+}
+
+/// Courses are kept: most shapes that are tried differ from others in one of them, or in neither.
+void TrialFit::put_product_of_courses(const Effect& effect, const RowSet& at,
+                                      Eigen::MatrixXd& columns) const {
+  const auto& [profile_family, face_family, count] = effect.family->product_of_courses;
+  const auto first = effect.shape.begin(), second = first + static_cast<std::ptrdiff_t>(count),
+             end = second + static_cast<std::ptrdiff_t>(count);
+  const auto profile = values_at({profile_family, FlankChoice::kBoth, {first, second}}, at);
+  const auto face = values_at({face_family, FlankChoice::kBoth, {second, end}}, at);
+  const bool opposite = *end != 0.0;
+  const auto& of_teeth = effect.family->form_times_tooth;
+  Eigen::MatrixXd factors = Eigen::MatrixXd::Ones(columns.cols(), geometry_.teeth() + 1);
+  for (int tooth = 1; of_teeth && tooth <= geometry_.teeth(); ++tooth)
+    of_teeth->tooth(geometry_, tooth, effect.shape, factors.col(tooth).data());
+  for (std::size_t i = 0; i < at.places.size(); ++i) {
+    const auto r = static_cast<Eigen::Index>(i);
+    const OnFlank& place = at.places[i];
+    if (place.side == 0 || (*profile)(r) == 0.0) continue;
+    if (effect.flank != FlankChoice::kBoth && effect.flank != place.flank) continue;
+    const double form = (opposite ? place.side : 1) * (*profile)(r) * (*face)(r);
+    for (Eigen::Index k = 0; k < columns.cols(); ++k)
+      if (const double factor = factors(k, place.tooth); factor != 0.0)
+        columns(r, k) = factor * form;
+  }
 }
 
 bool TrialFit::is_of_kinds(const Effect& effect) const {

@@ -75,15 +75,26 @@ class TrialFit {
   };
   /// Normal equations of all but one effect.
   struct Others;
+  void find_places_of_scan();
   void find_alike(FlankCells cells);
   [[nodiscard]] bool is_of_kinds(const Effect& effect) const;
   [[nodiscard]] bool has_exact_kinds() const { return alike_ && table_.points_mm.empty(); }
+  /// Where a row's one place is.
+  struct OnFlank {
+    std::int32_t tooth = 0;
+    FlankChoice flank = FlankChoice::kBoth;
+    std::int8_t side = 0;  ///< 0: on no flank
+  };
   /// Rows of the table, and how they are known to its EffectValues.
   struct RowSet {
     std::vector<std::uint32_t> rows;
     std::uint64_t key = 0;
+    std::vector<OnFlank> places;  ///< of a scan: each row has one place, with a weight of 1
   };
   [[nodiscard]] EffectValues::Values values_at(const Effect& effect, const RowSet& at) const;
+  void put_values(const Effect& effect, const RowSet& at, Eigen::MatrixXd& columns) const;
+  void put_product_of_courses(const Effect& effect, const RowSet& at,
+                              Eigen::MatrixXd& columns) const;
   [[nodiscard]] Columns short_columns_of(const Effect& effect) const;
   [[nodiscard]] Eigen::MatrixXd zeros_of_kinds(const Eigen::MatrixXd& values) const;
   [[nodiscard]] Eigen::MatrixXd full(const Columns& columns) const;
@@ -93,6 +104,9 @@ class TrialFit {
   [[nodiscard]] bool is_form_times_tooth(const Effect& effect) const;
   [[nodiscard]] std::vector<double> form_of(const Effect& effect) const;
   struct FormOnTeeth;
+  template <int count>
+  void add_over_teeth(const std::vector<double>& rooted, Eigen::Index first,
+                      Eigen::MatrixXd& sums) const;
   void sum_up(FormOnTeeth& form) const;
   [[nodiscard]] std::pair<Eigen::MatrixXd, Eigen::MatrixXd> products_of_teeth(
       const Effect& effect, const FormOnTeeth& form) const;

@@ -50,7 +50,24 @@ std::vector<double> TrialFit::form_of(const Effect& effect) const {
   return values;
 }
 
+/// Sums over every tooth of what a form adds to it times neighbouring columns, beside each other:
+/// each waits for itself alone.
+template <int count>
+void TrialFit::add_over_teeth(const std::vector<double>& rooted, Eigen::Index first,
+                              Eigen::MatrixXd& sums) const {
+  const double* columns[count];
+  for (int c = 0; c < count; ++c) columns[c] = columns_.col(first + c).data();
+  for (std::size_t k = 0; k < on_flanks_.size();) {  // a tooth's rows mostly follow each other
+    const int tooth = on_flanks_[k].tooth;
+    double sum[count] = {};
+    for (; k < on_flanks_.size() && on_flanks_[k].tooth == tooth; ++k)
+      for (int c = 0; c < count; ++c) sum[c] += rooted[k] * columns[c][on_flanks_[k].row];
+    for (int c = 0; c < count; ++c) sums(tooth, first + c) += sum[c];
+  }
+}
+
 void TrialFit::sum_up(FormOnTeeth& form) const {
+  constexpr int kBeside = 6;
   const Eigen::Index teeth = geometry_.teeth() + 1;
   form.with_all = Eigen::MatrixXd::Zero(teeth, columns_.cols());
   form.own = Eigen::MatrixXd::Zero(teeth, teeth);
@@ -61,17 +78,10 @@ void TrialFit::sum_up(FormOnTeeth& form) const {
     const Row& row = rows_[on_flanks_[k].row];
     rooted[k] = row.root * table_.rows[row.row].weight * form.values[on_flanks_[k].kind];
   }
-  for (Eigen::Index c = 0; c < columns_.cols(); ++c) {
-    const double* const column = columns_.col(c).data();
-    double* const sums = form.with_all.col(c).data();
-    for (std::size_t k = 0; k < on_flanks_.size();) {  // a tooth's rows mostly follow each other
-      const int tooth = on_flanks_[k].tooth;
-      double sum = 0.0;
-      for (; k < on_flanks_.size() && on_flanks_[k].tooth == tooth; ++k)
-        sum += rooted[k] * column[on_flanks_[k].row];
-      sums[tooth] += sum;
-    }
-  }
+  Eigen::Index column = 0;
+  for (; column + kBeside <= columns_.cols(); column += kBeside)
+    add_over_teeth<kBeside>(rooted, column, form.with_all);
+  for (; column < columns_.cols(); ++column) add_over_teeth<1>(rooted, column, form.with_all);
   // Weighted sums of every trace, by tooth: its zero takes its share of them.
   std::vector<std::vector<std::pair<int, double>>> of_traces(trace_weight_.size());
   for (std::size_t k = 0; k < on_flanks_.size();) {
