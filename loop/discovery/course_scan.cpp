@@ -12,6 +12,7 @@
 #include "trueflank/loop/discovery/course_waves.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/loudness.h"
+#include "trueflank/loop/discovery/nicks.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 
 namespace trueflank::loop {
@@ -537,6 +538,9 @@ class CourseScan {
         }
       }
     keep(best, tests);
+    for (std::size_t s = 0; s < whole.size(); ++s)
+      whole[s].array().rowwise() /= louds_[s].by.transpose().array();
+    if (const auto nick = nick_of(whole)) keep(*nick, 1.0);
   }
 
   const std::vector<MatrixXd>& sets_;

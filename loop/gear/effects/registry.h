@@ -78,6 +78,8 @@ namespace trueflank::loop::gear_effects {
 /// True of a product of polynomials, or of what is near to them: it grows over profile and face.
 [[nodiscard]] bool is_product_of_polynomials(const FlankGeometry& geometry, const Effect& form);
 [[nodiscard]] EffectFamily unnamed_crossed_around();
+/// True of one that one tooth in so many has.
+[[nodiscard]] bool is_of_a_comb(const Effect& form);
 [[nodiscard]] EffectFamily unnamed_crossed_order();
 [[nodiscard]] EffectFamily unnamed_crossed_waves();
 [[nodiscard]] EffectFamily unnamed_band();

@@ -216,7 +216,28 @@ void AroundCourse::put_in(EffectShape& shape, std::size_t first) const {
   shape[first + 2] = half_deg;
 }
 
+namespace {
+
+/// Of a comb: every how many teeth, and the first.
+std::pair<int, int> teeth_of_comb(const FlankGeometry& g, const AroundCourse& comb) {
+  const double pitch_deg = 360.0 / g.teeth();
+  const double off_deg = comb.towards_deg - deg_from_rad(g.centre_rad(1));
+  return {std::max(1, static_cast<int>(std::lround(2.0 * comb.half_deg / pitch_deg))),
+          static_cast<int>(std::lround(off_deg / pitch_deg)) + 1};
+}
+
+}  // namespace
+
+AroundCourse AroundCourse::comb(const FlankGeometry& g, int every, int first) {
+  const double pitch_deg = 360.0 / g.teeth();
+  return {kComb, deg_from_rad(g.centre_rad(1)) + (first - 1) * pitch_deg, 0.5 * every * pitch_deg};
+}
+
 double AroundCourse::value(const FlankGeometry& g, int tooth) const {
+  if (kind == kComb) {
+    const auto [every, first] = teeth_of_comb(g, *this);
+    return (tooth - first) % every == 0 ? 1.0 : 0.0;
+  }
   const double off = std::remainder(g.centre_rad(tooth) - rad_from_deg(towards_deg), kTwoPi);
   const double half = rad_from_deg(half_deg);
   switch (kind) {
@@ -231,16 +252,17 @@ double AroundCourse::value(const FlankGeometry& g, int tooth) const {
       const double from = off < -kRounding ? off + kTwoPi : std::max(0.0, off);
       return from / (kTwoPi - kTwoPi / g.teeth());
     }
-    case kEvery:
-      return 1.0;
     case kWave:
       return std::cos(kPi * off / half);
+    case kEvery:
+    case kComb:
+      break;
   }
-  return 0.0;
+  return 1.0;
 }
 
 std::vector<AroundCourse> AroundCourse::beside(const FlankGeometry& g) const {
-  if (kind == kEvery) return {};
+  if (kind == kEvery || kind == kComb) return {};
   constexpr double kNarrowest_deg = 15.0, kWidest_deg = 100.0;
   const double pitch_deg = 360.0 / g.teeth();
   std::vector<AroundCourse> courses;
@@ -313,12 +335,16 @@ std::string AroundCourse::words(const FlankGeometry& g) const {
              " per turn, most " + printed("at %.0f deg", std::fmod(turned, 360.0 / order)) +
              (order > 1 ? " first" : "");
     }
+    case kComb: {
+      const auto [every, first] = teeth_of_comb(g, *this);
+      return printed("on one tooth in %d, from tooth %d on", every, first);
+    }
   }
   return "";
 }
 
 std::vector<std::string> AroundCourse::kind_words() {
-  return {"half", "bell", "sector", "ramp", "wave", "every"};
+  return {"half", "bell", "sector", "ramp", "wave", "every", "comb"};
 }
 
 std::vector<AroundCourse> courses_around(const FlankGeometry& g) {

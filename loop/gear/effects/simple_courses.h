@@ -49,13 +49,17 @@ struct FlankCourse {
 /// which a tooth stands.
 struct AroundCourse {
   /// A cosine on one half and nothing on the other; a bell; some teeth and no others; from nothing
-  /// at a tooth evenly to all before it comes around; waves; the same on every tooth.
-  enum Kind { kHalf, kBell, kSector, kRamp, kWave, kEvery };
+  /// at a tooth evenly to all before it comes around; waves; the same on every tooth; one tooth in
+  /// so many, counted from the first one of the gear on.
+  enum Kind { kHalf, kBell, kSector, kRamp, kWave, kEvery, kComb };
   static constexpr std::size_t kValues = 3;
 
   Kind kind = kHalf;
-  double towards_deg = 0.0;  ///< where it is most, or begins (kRamp)
-  double half_deg = 0.0;     ///< half its width (kBell, kSector) or period (kWave)
+  double towards_deg = 0.0;  ///< where it is most, or begins (kRamp, kComb)
+  double half_deg = 0.0;     ///< half its width (kBell, kSector) or period (kWave, kComb)
+
+  /// One tooth in so many, from one on.
+  [[nodiscard]] static AroundCourse comb(const FlankGeometry& geometry, int every, int first);
 
   [[nodiscard]] static AroundCourse at(const EffectShape& shape, std::size_t first) {
     return {static_cast<Kind>(static_cast<int>(shape[first])), shape[first + 1], shape[first + 2]};
@@ -68,7 +72,7 @@ struct AroundCourse {
     return kind == kWave || kind == kEvery || (kind == kBell && half_deg > kWide_deg);
   }
   [[nodiscard]] int values_sought() const {
-    return kind == kEvery ? 0 : kind == kBell || kind == kSector ? 2 : 1;
+    return kind == kEvery ? 0 : kind == kBell || kind == kSector || kind == kComb ? 2 : 1;
   }
   [[nodiscard]] std::vector<AroundCourse> beside(const FlankGeometry& geometry) const;
   /// "on the teeth towards 30 deg, ... "

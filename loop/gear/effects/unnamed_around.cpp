@@ -331,6 +331,9 @@ EffectFamily unnamed_comb() {
                     factor[0] = (tooth - static_cast<int>(shape[1])) % every == 0 ? 1.0 : 0.0;
                   },
                   form_at(2)});
+  f.needs = [](const EffectShape& shape) {
+    return NeedsToBeSeen{.along_profile = shape[2] > 0.0, .along_face = shape[3] > 0.0};
+  };
   f.term_keys = {{"every"}, {"first_tooth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
   f.words = [](const ToldForm& told) {
     return printed("one tooth in %.0f, from tooth %.0f on, ", told.shape[0], told.shape[1]) +

@@ -186,6 +186,11 @@ EffectFamily unnamed_crossed_around() {
   return f;
 }
 
+bool is_of_a_comb(const Effect& form) {
+  return form.family == find_family("unnamed_crossed_around") &&
+         AroundCourse::at(form.shape, kAround).kind == AroundCourse::kComb;
+}
+
 /// A wave of an order around the gear that is there, or larger, along a part of the flanks: work
 /// that three jaws grip at one end. Told in place of what runs along the flanks in waves of that
 /// order (products.cpp), and no candidate of its own.

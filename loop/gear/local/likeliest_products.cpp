@@ -337,6 +337,33 @@ std::vector<Likely> likeliest_of(const FlankGeometry& g, const std::vector<Pair>
   return forms;
 }
 
+/// Of traces: the best course over the profile times the best over the face, where both go around
+/// the gear in one way: a place of the flank that traces in both directions cross.
+std::vector<Likely> crossed_of(const std::vector<Likely>& forms) {
+  constexpr std::size_t kFace = FlankCourse::kValues, kOpposite = 2 * FlankCourse::kValues;
+  struct Best {
+    const Likely* profile = nullptr;
+    const Likely* face = nullptr;
+  };
+  std::map<std::pair<FlankChoice, EffectShape>, Best> of_a_way;
+  for (const Likely& one : forms) {
+    if (one.form.family == nullptr) continue;
+    const EffectShape& shape = one.form.shape;
+    const auto opposite = shape.begin() + static_cast<std::ptrdiff_t>(kOpposite);
+    Best& best = of_a_way[{one.form.flank, EffectShape(opposite, shape.end())}];
+    const Likely*& along =
+        FlankCourse::at(shape, 0).kind != FlankCourse::kWhole ? best.profile : best.face;
+    if (along == nullptr || along->gain < one.gain) along = &one;
+  }
+  std::vector<Likely> crossed;
+  for (const auto& [way, best] : of_a_way) {
+    if (best.profile == nullptr || best.face == nullptr) continue;
+    crossed.push_back({best.profile->gain + best.face->gain, best.profile->form});
+    FlankCourse::at(best.face->form.shape, kFace).put_in(crossed.back().form.shape, kFace);
+  }
+  return crossed;
+}
+
 constexpr std::size_t kKindsOfAll = 4, kKindsOfAWay = 2;
 
 }  // namespace
@@ -444,6 +471,8 @@ std::vector<LikelyForms> LikeliestProducts::around_the_gear() const {
   std::erase_if(forms, [&](const Likely& one) {
     return one.form.family == nullptr || one.gain < kMore * most_of_whole_flanks;
   });
+  if (!scan)
+    for (Likely& crossed : crossed_of(forms)) forms.push_back(std::move(crossed));
   return best_of(std::move(forms), kKindsOfAWay);
 }
 

@@ -14,6 +14,7 @@
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/gear/local/loud_places.h"
+#include "trueflank/loop/gear/local/neighbour_variance.h"
 #include "trueflank/loop/gear/table/rows_by_class.h"
 
 namespace trueflank::loop {
@@ -37,15 +38,6 @@ std::vector<int> shuffled(int n) {
   std::mt19937_64 random(20260102);
   for (int i = n - 1; i > 0; --i) std::swap(order[i], order[random() % (i + 1)]);
   return order;
-}
-
-/// Variance from squares of a centred normal variable: by the median, or the mean of few.
-double robust_variance(std::vector<double>& squares) {
-  if (squares.size() < 8)
-    return squares.empty() ? 0.0
-                           : std::accumulate(squares.begin(), squares.end(), 0.0) /
-                                 static_cast<double>(squares.size());
-  return median(squares) / 0.4549;
 }
 
 class PatchMaker {
@@ -434,21 +426,28 @@ class PatchMaker {
       squares.push_back(d * d / times);
       of_side[keys_[i][4] > 0 ? 1 : 0].push_back(d * d / times);
     }
+    constexpr std::size_t kFewOf = 4;
+    if (is_trace(kind) && squares.size() * kFewOf < members.size()) {
+      std::map<Key, std::vector<OnTrace>> traces;
+      for (const int i : members) {
+        Key trace = keys_[i];
+        trace[axis] = 0;
+        const Place& place = result_.patches[i].places.front().place;
+        traces[trace].push_back(
+            {axis == 6 ? place.z_mm : place.roll_mm, result_.patches[i].mean_um, loud_square(i)});
+      }
+      squares.clear();
+      of_side = {};
+      for (auto& [trace, values] : traces)
+        for (const double square : squares_beside_lines(std::move(values))) {
+          squares.push_back(square);
+          of_side[trace[4] > 0 ? 1 : 0].push_back(square);
+        }
+    }
     const std::array<std::size_t, 2> counts{of_side[0].size(), of_side[1].size()};
     Variances result{robust_variance(squares), {robust_variance(of_side[0]), robust_variance(of_side[1])}};
     if (!are_apart(result.of_side, counts)) result.of_side = {result.all, result.all};
     return result;
-  }
-
-  /// True where one of two variances, medians of so many squares, is larger by more than chance.
-  static bool are_apart(const std::array<double, 2>& variance, const std::array<std::size_t, 2>& counts) {
-    // A median tells as much as 0.37 of the squares, neighbours share two values of three.
-    constexpr double kTold = 0.37 / 2.0, kSure = 1e-4;
-    constexpr std::size_t kFewest = 40;
-    if (std::min(counts[0], counts[1]) < kFewest || !(variance[0] > 0.0 && variance[1] > 0.0)) return false;
-    const std::size_t larger = variance[1] > variance[0] ? 1 : 0;
-    return f_tail(variance[larger] / variance[1 - larger], kTold * static_cast<double>(counts[larger]),
-                  kTold * static_cast<double>(counts[1 - larger])) < kSure;
   }
 
   /// Of values one a tooth: second differences around the gear, each flank apart, but no more than

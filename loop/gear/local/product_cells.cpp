@@ -42,6 +42,10 @@ Arounds arounds_of(const FlankGeometry& g) {
       all.courses.push_back(course);
     }
   }
+  constexpr int kMostOfComb = 12, kFewestTeeth = 3;
+  for (int every = 2; every <= std::min(kMostOfComb, g.teeth() / kFewestTeeth); ++every)
+    for (int first = 1; first <= every; ++first)
+      all.courses.push_back(AroundCourse::comb(g, every, first));
   all.on_teeth.resize(std::ssize(all.courses), g.teeth());
   for (Eigen::Index i = 0; i < all.on_teeth.rows(); ++i)
     for (int tooth = 1; tooth <= g.teeth(); ++tooth)
@@ -50,7 +54,9 @@ Arounds arounds_of(const FlankGeometry& g) {
   all.beside_free_form = all.beside_motions = Eigen::ArrayXd::Ones(all.on_teeth.rows());
   for (Eigen::Index i = 0; i < all.on_teeth.rows(); ++i) {
     const AroundCourse& course = all.courses[static_cast<std::size_t>(i)];
-    if (course.is_of_free_form()) all.beside_free_form[i] = 0.0;
+    // (one tooth in so many that leans or is bowed: unnamed_comb)
+    if (course.is_of_free_form() || course.kind == AroundCourse::kComb)
+      all.beside_free_form[i] = 0.0;
     if (course.kind == AroundCourse::kWave && course.half_deg == 180.0) all.beside_motions[i] = 0.0;
   }
   return all;

@@ -251,13 +251,15 @@ void tell_forms_of_teeth(PartModel& model) {
       const std::vector<std::size_t> these =
           on_tooth(tooth, [&](const Effect& effect) { return effect.flank == flank; });
       if (these.empty() || put(these, flank)) continue;
-      for (const double face : {0.0, 1.0}) {
-        if (put_one_form_for(model, these,
-                             on_teeth(steps_along(model.geometry, face, flank), tooth, 1.0)) ||
-            put_one_form_for(model, these,
-                             on_teeth(forms_along(model.geometry, face, flank, false), tooth, 1.0)))
-          break;
-      }
+      const auto put_own = [&](const std::vector<Effect>& forms) {
+        return put_one_form_for(model, these, on_teeth(forms, tooth, 1.0));
+      };
+      bool is_one = false;
+      for (const double face : {0.0, 1.0})
+        is_one = is_one || put_own(steps_along(model.geometry, face, flank)) ||
+                 put_own(forms_along(model.geometry, face, flank, false));
+      // (a spot that ends softly is many sharp ones)
+      if (!is_one) put_own(dishes(model.geometry, flank, "unnamed_dish"));
     }
   }
 }

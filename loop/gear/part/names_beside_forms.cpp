@@ -265,4 +265,30 @@ void name_terms_beside_forms(PartModel& model) {
   }
 }
 
+std::vector<std::vector<std::vector<Effect>>> names_with_a_place(
+    const PartModel& model, const std::vector<Effect>& straight) {
+  std::vector<std::vector<std::vector<Effect>>> kinds;
+  std::vector<Effect> slopes = straight;
+  std::erase_if(slopes, [&](const Effect& name) { return !is_straight(model.geometry, name); });
+  std::vector<const EffectFamily*> known;
+  for (std::size_t c = 0; c < model.candidates.size(); ++c) {
+    const Effect& name = model.candidates[c];
+    const EffectFamily& family = *name.family;
+    if (!family.named || !family.shape_is_continuous || name.flank != FlankChoice::kBoth ||
+        model.unseen[c] || std::find(known.begin(), known.end(), &family) != known.end() ||
+        runs_of(model.geometry, name) != Runs::kOverProfile)
+      continue;
+    known.push_back(&family);
+    std::vector<std::vector<Effect>> alone, with_slope;
+    for (const EffectShape& shape : family.shapes(model.geometry)) {
+      alone.push_back({{&family, name.flank, shape}});
+      with_slope.push_back(slopes);
+      with_slope.back().push_back(alone.back().front());
+    }
+    kinds.push_back(std::move(alone));
+    if (!slopes.empty()) kinds.push_back(std::move(with_slope));
+  }
+  return kinds;
+}
+
 }  // namespace trueflank::loop

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "trueflank/loop/gear/part/part_model.h"
 
 namespace trueflank::loop {
@@ -29,6 +32,10 @@ namespace trueflank::loop {
                                               bool opposite_too = false);
 /// Of names that run alike, the one with the lowest preference is what such data are told by.
 [[nodiscard]] int preference_of(const PartModel& model, const Effect& name);
+/// Names with a place over the profile at all their places, a list for each: alone, and beside the
+/// slopes among these.
+[[nodiscard]] std::vector<std::vector<std::vector<Effect>>> names_with_a_place(
+    const PartModel& model, const std::vector<Effect>& straight);
 /// A form with a place whose whole course a name follows as well: a step that was all that could be
 /// seen of a slope beside a wave not yet understood, or a curve towards the tip beside a slope,
 /// which is a relief.

@@ -104,6 +104,7 @@ void explain_part(PartModel& model) {
   take_form_around(model);
   tell_what_one_flank_has(model);
   name_what_is_settled(model);
+  tell_the_usual_of_equals(model);
   drop_names_that_may_be_nothing(model);
   model.remainder = remainder_of(model, model.effects, RemainderOf::kAll);
   while (structure_is_left(model) && name_what_is_left(model))

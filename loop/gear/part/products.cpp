@@ -21,6 +21,7 @@
 #include "trueflank/loop/gear/effects/simple_courses.h"
 #include "trueflank/loop/gear/local/likeliest_products.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
+#include "trueflank/loop/gear/part/names_beside_forms.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/runs_along.h"
@@ -63,34 +64,6 @@ bool is_wave_along(const Effect& effect) {
   const std::vector<std::string>& names = effect.family->shape_names;
   return effect.family == find_family("unnamed_marks") ||
          std::find(names.begin(), names.end(), "wavelength_mm") != names.end();
-}
-
-/// Names with a place over the profile at all their places, a list for each: alone, and beside the
-/// slopes among these.
-std::vector<std::vector<std::vector<Effect>>> names_with_a_place(
-    const PartModel& model, const std::vector<Effect>& straight) {
-  std::vector<std::vector<std::vector<Effect>>> kinds;
-  std::vector<Effect> slopes = straight;
-  std::erase_if(slopes, [&](const Effect& name) { return !is_straight(model.geometry, name); });
-  std::vector<const EffectFamily*> known;
-  for (std::size_t c = 0; c < model.candidates.size(); ++c) {
-    const Effect& name = model.candidates[c];
-    const EffectFamily& family = *name.family;
-    if (!family.named || !family.shape_is_continuous || name.flank != FlankChoice::kBoth ||
-        model.unseen[c] || std::find(known.begin(), known.end(), &family) != known.end() ||
-        runs_of(model.geometry, name) != Runs::kOverProfile)
-      continue;
-    known.push_back(&family);
-    std::vector<std::vector<Effect>> alone, with_slope;
-    for (const EffectShape& shape : family.shapes(model.geometry)) {
-      alone.push_back({{&family, name.flank, shape}});
-      with_slope.push_back(slopes);
-      with_slope.back().push_back(alone.back().front());
-    }
-    kinds.push_back(std::move(alone));
-    if (!slopes.empty()) kinds.push_back(std::move(with_slope));
-  }
-  return kinds;
 }
 
 /// The cheapest step or product that stands for effects of an answer, as they are asked one after
@@ -319,22 +292,29 @@ void Products::ask_the_same_on_every_tooth() {
 /// For all that has no name, and for all; or for those that are pieces of it.
 void Products::ask_around_the_gear() {
   constexpr int kFewestValues = 3;
+  constexpr std::size_t kFewestOfComb = 3;
   std::vector<Effect> own;
+  std::set<double> teeth;  // that have spots of their own
   bool around = false;
   for (const std::size_t e : nameless_) {
     own.push_back(model_.effects[e]);
     const NeedsToBeSeen needs = own.back().needs();
+    if (own.back().family->is_of_one_tooth) teeth.insert(own.back().shape[0]);
     around = around || (runs_of(model_.geometry, own.back()) == Runs::kOtherwise &&
                         (needs.along_profile || needs.along_face));
   }
-  if (!around || values_of(own, true) < kFewestValues) return;
+  if (!(around || teeth.size() >= kFewestOfComb) || values_of(own, true) < kFewestValues) return;
   std::vector<Indices> sets{nameless_};
   if (all_ != nameless_) sets.push_back(all_);
   for (const Indices& set : sets) {
     if (set.size() < 2) continue;
     const std::vector<Effect> others = without(set);
     const LikeliestProducts likeliest = likeliest_beside(others);
-    const std::vector<LikelyForms> forms = likeliest.around_the_gear();
+    std::vector<LikelyForms> forms = likeliest.around_the_gear();
+    if (!around)
+      std::erase_if(forms, [](const LikelyForms& likely) {
+        return !gear_effects::is_of_a_comb(likely.forms.front());
+      });
     ask(set, forms, least_gain(likeliest.square(), others));
     if (found() && best_.back().family == find_family("unnamed_crossed_around")) continue;
     for (const LikelyForms& likely : forms)

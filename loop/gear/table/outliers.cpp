@@ -157,6 +157,27 @@ Level level_of(const Observations& table, const RowNumbers& patch) {
   return {centre, kSigmaOfMedianSize * median(values)};
 }
 
+/// The step of an instrument that reads coarsely: the smallest difference between values of traces,
+/// by kind and source as patches have them. Where values are told finely it is next to nothing.
+std::map<int, double> steps_of_readings(const Observations& table,
+                                        const std::vector<const PatchRows::value_type*>& patches) {
+  std::map<int, std::vector<double>> values;
+  for (const auto* patch : patches)
+    for (const std::uint32_t i : patch->second)
+      if (const ObservationKind kind = table.rows[i].kind;
+          kind == ObservationKind::kProfile || kind == ObservationKind::kHelix)
+        values[patch->first[0]].push_back(table.rows[i].deviation_um);
+  std::map<int, double> steps;
+  for (auto& [kind, list] : values) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    double least = list.size() > 1 ? list.back() - list.front() : 0.0;
+    for (std::size_t i = 1; i < list.size(); ++i) least = std::min(least, list[i] - list[i - 1]);
+    steps[kind] = least;
+  }
+  return steps;
+}
+
 /// The outliers of one patch; `of_kind_um` is the usual spread of its kind.
 RowNumbers outliers_of(const Observations& table, const PatchRows& patches,
                        const PatchRows::value_type& of_patch, const Level& level,
@@ -235,6 +256,9 @@ void leave_out_outliers(const FlankGeometry& geometry, Observations& table) {
     spreads[judged[k]->first[0]].push_back(levels[k].spread_um);
   std::map<int, double> spread_of;
   for (auto& [kind, list] : spreads) spread_of[kind] = median(list);
+  // Where most values of a patch are one reading, the others are no outliers.
+  for (const auto& [kind, step] : steps_of_readings(table, judged))
+    spread_of[kind] = std::max(spread_of[kind], 0.5 * step);
   std::vector<RowNumbers> found(judged.size());
   for_each_patch([&](std::size_t k) {
     found[k] =

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <tuple>
+
+#include "tests/loop/made_gears.h"
+
+// What one tooth in so many has at a place of its flanks, and what one tooth alone has there.
+namespace trueflank::test {
+namespace {
+
+double bell(double off, double half) { return std::exp(-off * off / (half * half)); }
+
+loop::LoopResult closed_on_traces(const MadeGear& gear, const Process& made, double noise_um,
+                                  bool common_zero) {
+  InspectionOptions options;
+  options.noise_um = noise_um;
+  options.common_zero = common_zero;
+  options.points = 50;
+  return close(gear, inspection_of(gear, {made}, options));
+}
+
+// A ridge at a height of every fifth tooth, on traces with zeros of their own.
+TEST(TeethInTurn, ARidgeOfOneToothInSoManyIsOneForm) {
+  for (const auto& [teeth, every, first, sign] : {std::tuple{31, 4, 3, -1.0}, {23, 5, 2, 1.0}}) {
+    const MadeGear gear = spur(teeth);
+    const auto made =
+        grown([every = every, first = first, sign = sign](auto&, const FlankSpot& s, auto&) {
+          return (s.tooth - first) % every == 0 ? 7.0 * sign * bell(s.v + 0.3, 0.16) : 0.0;
+        });
+    const auto result = closed_on_traces(gear, made, 0.7, false);
+    EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
+    ASSERT_EQ(result.effects.size(), 1U) << list(result);
+    EXPECT_TRUE(tells_of(result, "on one tooth in " + std::to_string(every) + ", from tooth " +
+                                     std::to_string(first) + " on, about a height of"))
+        << list(result);
+    EXPECT_TRUE(tells_of(result, sign > 0.0 ? "stand out" : "lie back")) << list(result);
+    const auto& term = result.effects.front().terms.front();
+    EXPECT_NEAR(term.amplitude(), 7.0, 0.5) << list(result);
+  }
+}
+
+// A spot that profile and helix traces cross on one flank of every fifth tooth; the same in a scan.
+TEST(TeethInTurn, ASpotOfOneToothInSoManyIsOneForm) {
+  const MadeGear gear = spur(34);
+  const auto made = grown([](auto&, const FlankSpot& s, auto&) {
+    return s.side > 0 && s.tooth % 5 == 3 ? -11.0 * bell(s.u + 0.1, 0.45) * bell(s.v, 0.25) : 0.0;
+  });
+  for (const bool scan : {false, true}) {
+    const auto result = scan ? close(gear, scan_of(gear, {made}, scanned(12000, 1.5, 5)), true)
+                             : closed_on_traces(gear, made, 0.7, true);
+    EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
+    ASSERT_EQ(result.effects.size(), 1U) << list(result);
+    EXPECT_TRUE(tells_of(result, "on one tooth in 5, from tooth 3 on")) << list(result);
+    EXPECT_TRUE(tells_of(result, "about a diameter of")) << list(result);
+    EXPECT_TRUE(tells_of(result, "about a height of")) << list(result);
+    EXPECT_NEAR(result.effects.front().terms.front().amplitude(), 11.0, 1.2) << list(result);
+  }
+}
+
+// Grease, a nick's burr, a crater: soft towards all sides, seen by one trace in either direction.
+TEST(TeethInTurn, ASoftSpotOfOneToothIsOneForm) {
+  for (const auto& [teeth, tooth, sign, common_zero] :
+       {std::tuple{25, 3, 1.0, false}, {22, 9, -1.0, true}}) {
+    const MadeGear gear = spur(teeth);
+    const auto made = grown([tooth = tooth, sign = sign](auto&, const FlankSpot& s, auto&) {
+      return s.side < 0 && s.tooth == tooth
+                 ? sign * 9.0 * bell(s.u + 0.05, 0.5) * bell(s.v - 0.1, 0.3)
+                 : 0.0;
+    });
+    const auto result = closed_on_traces(gear, made, 0.6, common_zero);
+    EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
+    ASSERT_EQ(result.effects.size(), 1U) << list(result);
+    EXPECT_TRUE(tells_of(result, "on tooth " + std::to_string(tooth) + " alone, a " +
+                                     (sign > 0.0 ? "swelling" : "hollow") + " of the flank"))
+        << list(result);
+    EXPECT_NEAR(result.effects.front().terms.front().amplitude(), 9.0, 1.0) << list(result);
+  }
+}
+
+// Three teeth that have nothing to do with each other are no comb, and one tooth is no bell around
+// the gear.
+TEST(TeethInTurn, TeethAtAnyPlacesAreTheirOwn) {
+  const MadeGear gear = spur(29);
+  const auto made = grown([](auto&, const FlankSpot& s, auto&) {
+    return s.side > 0 && (s.tooth == 4 || s.tooth == 11 || s.tooth == 23)
+               ? 9.0 * bell(s.u + 0.05, 0.5) * bell(s.v - 0.1, 0.3)
+               : 0.0;
+  });
+  const auto result = closed_on_traces(gear, made, 0.6, true);
+  EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
+  for (const int tooth : {4, 11, 23})
+    EXPECT_TRUE(tells_of(result, "on tooth " + std::to_string(tooth) + " alone, a swelling"))
+        << list(result);
+  EXPECT_FALSE(tells_of(result, "one tooth in")) << list(result);
+}
+
+// Beside a hollow the size of the part says what the pressure angle does, to the last bit: on
+// traces with zeros of their own the usual name is told.
+TEST(TeethInTurn, ALeanBesideAHollowIsNoSizeOfThePart) {
+  const MadeGear gear = spur(20);
+  const auto made = grown(
+      [](auto&, const FlankSpot& s, auto&) { return 13.0 * s.u - 13.0 * bell(s.u + 0.76, 0.28); });
+  const auto result = closed_on_traces(gear, made, 1.5, false);
+  expect_size(result, "pressure_angle_error", "slope_um", 26.0, 1.5);
+  EXPECT_EQ(find(result, "scale"), nullptr) << list(result);
+}
+
+}  // namespace
+}  // namespace trueflank::test
