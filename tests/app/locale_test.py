@@ -53,6 +53,16 @@ TRACES += "".join(f"INDEX,{tooth},{flank},25.5,4,{(5 * tooth) % 7}\n"
                   for tooth in range(1, 18) for flank in ("LEFT", "RIGHT"))
 TRACES += "HELIX,3,LEFT,25.5,1234.5,1\n"
 
+CORNERS, FACES = ((0, 0, 0), (10, 0, 0), (0, 12.25, 0), (0, 0, 15.5)), ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))
+AMF = ('<?xml version="1.0"?>\n<amf version="1.1"><object id="1"><mesh><vertices>\n' + "".join(
+    f"<vertex><coordinates><x>{x}</x><y>{y}</y><z>{z}</z></coordinates></vertex>\n" for x, y, z in CORNERS) +
+       "</vertices><volume>\n" + "".join(f"<triangle><v1>{a}</v1><v2>{b}</v2><v3>{c}</v3></triangle>\n" for a, b, c in FACES) +
+       "</volume></mesh></object></amf>\n")
+X3D = ("<?xml version='1.0'?><X3D profile='Interchange' version='3.3'><Scene><Group><Shape><IndexedFaceSet coordIndex='" +
+       " ".join(f"{a} {b} {c} -1" for a, b, c in FACES) + "'><Coordinate point='" +
+       " ".join(f"{x / 1000} {y / 1000} {z / 1000}" for x, y, z in CORNERS) +
+       "'/></IndexedFaceSet></Shape></Group></Scene></X3D>")
+
 
 def environment(foreign):
     plain = {key: value for key, value in os.environ.items() if not key.startswith("LC_")}
@@ -86,6 +96,9 @@ def all_commands(folder, foreign):
                     "--allow-failing")
     said += run(folder, foreign, "compare", "pair/pinion.obj", "other/pinion.3mf", "--picture", "difference.svg",
                 codes=(0, 1))
+    for name, text in (("body.amf", AMF), ("body.x3d", X3D)):  # assimp reads them, in a process of its own
+        (folder / name).write_text(text)
+        said += run(folder, foreign, "compare", name, name, codes=(0, 2))
     # what cannot be, with the number that cannot
     (folder / "wide.toml").write_text(PAIR.replace("teeth = 17", "teeth = 17\nshift = -1.25"))
     (folder / "odd.toml").write_text(NEEDS.replace("max = 96.3", "max = 1090.5").replace("min = 96.2", "min = 1096.25"))
