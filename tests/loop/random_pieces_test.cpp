@@ -142,7 +142,7 @@ std::pair<Effect, std::vector<Effect>> form_and_its_pieces(std::mt19937_64& rand
   const double first = 1.0 + below(teeth), lean = below(2);
   std::vector<Effect> waves;
   for (const double order : {1.0, 2.0, 3.0}) waves.push_back(term(0.0, lean, order));
-  switch (below(6)) {
+  switch (teeth % 4 == 0 ? below(6) : 1 + 2 * below(3)) {  // (a comb of four needs as many teeth)
     case 0:
       return {form("unnamed_ramp", {first, 0.0, lean, 0.0}), waves};
     case 1:
@@ -212,6 +212,7 @@ class RandomModel {
   }
   /// With its pieces in another order.
   void shuffle() { std::shuffle(pieces_.begin(), pieces_.end(), random_); }
+  [[nodiscard]] const std::vector<std::pair<Effect, double>>& made() const { return made_; }
   [[nodiscard]] std::unique_ptr<PartModel> model() const {
     auto model = std::make_unique<PartModel>(
         *geometry_, *make_observations(*geometry_, data_, {.aligned = true}), loop::PartOptions());
@@ -264,6 +265,33 @@ TEST(RandomPieces, AreToldAsWhatLeavesAsLittleOfThem) {
       const auto shuffled = gear.model();
       telling.tell(*shuffled);
       EXPECT_EQ(told(shuffled->effects), told(model->effects)) << where;
+    }
+  }
+}
+
+// Of random size, place and gear: what a drift, a comb, a form of one flank and a bent axis come to
+// in pieces.
+TEST(RandomPieces, OfOneFormAreToldAsItWhereverItStands) {
+  const std::vector<std::pair<std::string, std::function<void(PartModel&)>>> ways{
+      {"unnamed_ramp", [](PartModel& m) { static_cast<void>(tell_as_drift(m)); }},
+      {"unnamed_sector", [](PartModel& m) { static_cast<void>(tell_as_sector(m)); }},
+      {"unnamed_comb", [](PartModel& m) { static_cast<void>(tell_as_repeating(m)); }},
+      {"unnamed_rise", loop::tell_as_one_form},
+      {"unnamed_bow", loop::tell_as_one_form}};
+  for (unsigned seed = 1; seed <= 41; seed += 2) {
+    RandomModel gear(seed);
+    const Effect& form = gear.made().front().first;
+    for (const auto& [family, tell] : ways) {
+      if (form.family->id != family) continue;
+      const auto model = gear.model();
+      if (model->effects.front().family == loop::find_family("unnamed_tooth_form")) continue;
+      tell(*model);
+      const std::string where = "seed " + std::to_string(seed) + ": " + joined(told({form}), "; ") +
+                                " is told as " + joined(told(model->effects), "; ");
+      EXPECT_EQ(model->effects.size(), 1U) << where;
+      EXPECT_EQ(model->effects.front().family, form.family) << where;
+      EXPECT_EQ(model->effects.front().flank, form.flank) << where;
+      EXPECT_NEAR(model->effects.front().shape[0], form.shape[0], 0.5) << where;
     }
   }
 }
