@@ -19,6 +19,7 @@
 #include <csignal>
 #include <cstdint>
 #include <cstring>
+#include <locale>
 #include <string>
 #include <utility>
 
@@ -228,6 +229,8 @@ class Teller {
     if (null > 2) close(null);  // the library is a file to open, where few may be open
   }
   try {
+    std::locale::global(
+        std::locale::classic());  // assimp reads 15.5 as 15 where a comma is the decimal point
     Teller(pipe, content, convention).run();
   } catch (...) {
     _exit(1);

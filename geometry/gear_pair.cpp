@@ -55,10 +55,10 @@ Result<double> zero_backlash_centre_distance_mm(const MeshTeeth& mesh, double sh
                      2.0 * std::tan(mesh.pressure_angle_rad) * shift_sum / tooth_sum(mesh);
   if (!(tooth_sum(mesh) > 0.0) || !(inv > 0.0))
     return fail({.code = ErrorCode::kInfeasible,
-                 .message = "profile shifts that add up to " + std::to_string(shift_sum) +
+                 .message = "profile shifts that add up to " + trimmed_number(shift_sum) +
                             " leave no centre distance without backlash",
                  .key = "shift",
-                 .value = std::to_string(shift_sum),
+                 .value = trimmed_number(shift_sum),
                  .remedy = "larger shifts (internal pair: a larger shift of the ring)"});
   return reference_centre_distance_mm(mesh) * std::cos(alpha) / std::cos(inverse_involute_rad(inv));
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bindings.h"
+#include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
 #include "trueflank/check/check_gearbox.h"
 #include "trueflank/design/design_file_writer.h"
@@ -112,8 +113,11 @@ py::dict efficiency_dict(const Gearbox& self, std::optional<double> friction, co
     throw Failure({.code = ErrorCode::kUsage, .message = "no such loss model", .key = "loss_model",
                    .value = model, .remedy = "contact_ratios or path_integral"});
   if (friction && !(*friction >= 0.0 && *friction <= 1.0))
-    throw Failure({.code = ErrorCode::kOutOfRange, .message = "no friction coefficient",
-                   .key = "friction", .value = std::to_string(*friction), .remedy = "0 to 1"});
+    throw Failure({.code = ErrorCode::kOutOfRange,
+                   .message = "no friction coefficient",
+                   .key = "friction",
+                   .value = trimmed_number(*friction),
+                   .remedy = "0 to 1"});
   const EfficiencyResult result = efficiency(
       self.train(), {.model = model == "contact_ratios" ? LossModel::kContactRatios : LossModel::kPathIntegral,
                      .friction = friction});

@@ -3,9 +3,10 @@
 #include <cstring>
 
 #include "bindings.h"
-#include "trueflank/session/compare_report.h"
+#include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
 #include "trueflank/export/mesh_reader.h"
+#include "trueflank/session/compare_report.h"
 #include "trueflank/solid/measure/mesh_validity.h"
 
 namespace trueflank::python {
@@ -73,8 +74,11 @@ py::object compare(const Mesh& golden, const Mesh& made, double tolerance_um) {
 
 double checked_tolerance_mm(double tolerance_um) {
   if (!(tolerance_um > 0.0 && std::isfinite(tolerance_um)))
-    throw Failure({.code = ErrorCode::kUsage, .message = "no tolerance", .key = "tolerance_um",
-                   .value = std::to_string(tolerance_um), .remedy = "a number above 0"});
+    throw Failure({.code = ErrorCode::kUsage,
+                   .message = "no tolerance",
+                   .key = "tolerance_um",
+                   .value = trimmed_number(tolerance_um),
+                   .remedy = "a number above 0"});
   return mm_from_um(tolerance_um);
 }
 

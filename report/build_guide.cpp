@@ -2,9 +2,9 @@
 #include "trueflank/report/build_guide.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
+#include "trueflank/base/ascii_letters.h"
 #include "trueflank/base/contract.h"
 #include "trueflank/base/tolerance.h"
 #include "trueflank/check/quantity_text.h"
@@ -31,13 +31,9 @@ std::string words(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }
-std::string capital(std::string text) {
-  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text;
-}
 /// the lid, but ring1 without an article
 std::string the(const std::string& name) {
-  const bool numbered = !name.empty() && std::isdigit(static_cast<unsigned char>(name.back())) != 0;
+  const bool numbered = !name.empty() && is_digit(name.back());
   return (numbered ? "" : "the ") + name;
 }
 std::string counted(std::size_t count, const std::string& one, const std::string& many) {
@@ -93,8 +89,9 @@ class Writer {
 
   void add_section(const AssemblyUnit& unit, int copies) {
     const bool last = &unit == &order_.units.back();
-    GuideSection section{
-        .title = last ? "The gearbox" : capital(words(unit.name)), .copies = copies, .steps = {}};
+    GuideSection section{.title = last ? "The gearbox" : capitalised(words(unit.name)),
+                         .copies = copies,
+                         .steps = {}};
     if (copies > 1) section.title += " (make " + std::to_string(copies) + ")";
     std::vector<std::size_t> there;
     std::vector<GuideNeed> taken;  // what the others are put on

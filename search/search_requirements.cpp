@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/search/search_enumerate.h"
 #include "trueflank/search/search_figures.h"
 #include "trueflank/search/search_stages.h"
@@ -109,7 +110,7 @@ void require(bool good, const char* key, double value, const char* message, cons
     errors.push_back({.code = ErrorCode::kOutOfRange,
                       .message = message,
                       .key = key,
-                      .value = std::to_string(value),
+                      .value = trimmed_number(value),
                       .remedy = remedy});
 }
 
@@ -286,7 +287,8 @@ std::string fingerprint(const SearchRequirements& r) {
   text.add("face_width_max_mm", r.face_width_max_mm.value_or(kNaN));
   text.add("module_max_mm", r.module_max_mm.value_or(kNaN));
   for (const FigureLimit& limit : r.figure_limits) text.add(to_text(limit.figure), limit.value);
-  for (const ObjectiveWeight& w : r.weights) text.add("weight", to_text(w.objective) + (":" + std::to_string(w.weight)));
+  for (const ObjectiveWeight& w : r.weights)
+    text.add("weight", to_text(w.objective) + (":" + printed_number(w.weight, "%f")));
   text.add("hunting", r.hunting ? 1.0 : 0.0);
   text.add("sequential", r.sequential ? 1.0 : 0.0);
   text.add("assembling_share_min", r.assembling_share_min);

@@ -2,8 +2,8 @@
 #include "trueflank/session/effects_file.h"
 
 #include <algorithm>
-#include <cctype>
 
+#include "trueflank/base/ascii_letters.h"
 #include "trueflank/design/toml_document.h"
 #include "trueflank/loop/measured/text_table.h"
 
@@ -41,8 +41,8 @@ class EffectsReader {
         entry.line);
   }
   [[nodiscard]] static bool is_name(const std::string& text) {
-    return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-      return std::islower(c) || std::isdigit(c) || c == '_';
+    return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+      return is_small(c) || is_digit(c) || c == '_';
     });
   }
 

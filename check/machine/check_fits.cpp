@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <optional>
 #include <vector>
 
+#include "trueflank/base/ascii_letters.h"
 #include "trueflank/base/number_text.h"
 #include "trueflank/check/machine/check_bearings.h"
 #include "trueflank/check/quantity_text.h"
@@ -58,7 +58,7 @@ std::string fit_text(const std::string& what, const std::string& fit, double siz
   std::string text = what + " " + number_text(size_mm) + " " + fit + " (" + um(limits.lower_mm) +
                      " to " + um(limits.upper_mm) + " um)";
   if (!other || std::isnan(other->lower_mm)) return text;
-  const bool is_hole = std::isupper(static_cast<unsigned char>(fit[0])) != 0;
+  const bool is_hole = is_capital(fit[0]);
   const FitLimits &hole = is_hole ? limits : *other, &shaft = is_hole ? *other : limits;
   return text + ", clearance " + um(hole.lower_mm - shaft.upper_mm) + " to " +
          um(hole.upper_mm - shaft.lower_mm) + " um";
@@ -154,7 +154,7 @@ class FittedSeats {
     double tight_um = 0.0;
     for (const Side& side : sides)
       if (const auto made = fit_limits(side.fit, side.size_mm); made && !side.fit.empty()) {
-        const bool hole = std::isupper(static_cast<unsigned char>(side.fit[0])) != 0;
+        const bool hole = is_capital(side.fit[0]);
         const double mate = side.mate->lower_mm + side.mate->upper_mm;
         const double over = 0.5 * (made->lower_mm + made->upper_mm - mate) * (hole ? -1.0 : 1.0);
         tight_um += 1000.0 * std::max(0.0, over);

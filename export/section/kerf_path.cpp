@@ -9,6 +9,7 @@
 #include <cmath>
 #include <optional>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
 #include "trueflank/export/section/kerf_element.h"
 #include "trueflank/geometry/biarc.h"
@@ -304,7 +305,7 @@ class PathBuilder {
 };
 
 Error does_not_fit(double kerf_mm) {
-  std::string value = std::to_string(kerf_mm);
+  std::string value = trimmed_number(kerf_mm);
   return {.code = ErrorCode::kInfeasible,
           .message = "a wire or beam of this width does not fit into an opening of the part",
           .key = "made.kerf_mm",
@@ -318,9 +319,10 @@ Error not_built(double kerf_mm, std::string why) {
   return {.code = ErrorCode::kUnsupported,
           .message = std::move(why),
           .key = "made.kerf_mm",
-          .value = std::to_string(kerf_mm),
-          .remedy = "no kerf, or straight teeth whose modifications are of the profile alone (tip and "
-                    "root relief, profile crowning and slope, tip rounding)"};
+          .value = trimmed_number(kerf_mm),
+          .remedy =
+              "no kerf, or straight teeth whose modifications are of the profile alone (tip and "
+              "root relief, profile crowning and slope, tip rounding)"};
 }
 
 /// A straight wire leaves the same section at every height.

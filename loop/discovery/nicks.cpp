@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/discovery/nicks.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/order_statistics.h"
@@ -15,7 +18,12 @@ std::optional<CourseFinding> nick_of(const std::vector<Eigen::MatrixXd>& apart) 
   double tests = 0.0;
   for (std::size_t s = 0; s < apart.size(); ++s) {
     const Eigen::MatrixXd& set = apart[s];
-    const double spread = robust_sigma(std::vector(set.data(), set.data() + set.size()));
+    // (of few courses a third or a fifth are what is usual, and nothing is left of them)
+    std::vector<double> off;
+    std::copy_if(set.data(), set.data() + set.size(), std::back_inserter(off),
+                 [](double value) { return value != 0.0; });
+    if (off.empty()) continue;
+    const double spread = robust_sigma(std::move(off));
     if (!(spread > 0.0)) continue;
     const auto places = static_cast<double>(set.rows());
     tests += (places - 2.0) * static_cast<double>(set.cols());

@@ -2,10 +2,10 @@
 #include "trueflank/loop/drive/found_drive_effects.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <set>
 
+#include "trueflank/base/ascii_letters.h"
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
 #include "trueflank/loop/discovery/distributions.h"
@@ -242,8 +242,7 @@ class Describer {
   std::string sentence(const FoundEffect& found, const std::vector<int>& members) const {
     Eigen::VectorXd moved = Eigen::VectorXd::Zero(s_.value.size());
     for (const int e : members) moved += s_.all.explained_nm(e);
-    std::string text = found.description;
-    text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+    std::string text = capitalised(found.description);
     // After the shape's values comes what it amounts to; of one without a name after its order.
     const std::size_t main = found.named ? s_.all.effects()[members.front()].shape.size() : 1;
     if (main < found.parameters.size()) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 
+#include "trueflank/base/ascii_letters.h"
 #include "trueflank/loop/measured/text_table.h"
 
 namespace trueflank::loop {

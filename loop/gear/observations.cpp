@@ -20,16 +20,6 @@
 namespace trueflank::loop {
 namespace {
 
-std::string number_text(double value) {
-  std::string text = std::to_string(value);
-  while (text.find('.') != std::string::npos && (text.back() == '0' || text.back() == '.')) {
-    const bool dot = text.back() == '.';
-    text.pop_back();
-    if (dot) break;
-  }
-  return text;
-}
-
 /// Counts the rows of a file that cannot be of this gear. Where they are many the file is another
 /// gear's, and what is left of it would tell nothing about this one.
 class ForeignRows {
@@ -75,7 +65,7 @@ class TableBuilder {
     if (!fits(quality)) {
       errors.push_back({.code = ErrorCode::kInconsistent,
                         .message = "the scan does not fit the gear as designed: " +
-                                   number_text(std::round(1000.0 * quality.share) / 10.0) +
+                                   trimmed_number(std::round(1000.0 * quality.share) / 10.0) +
                                    " % of its points in the ring of the teeth lie near a flank" +
                                    (options_.aligned ? ", taken as aligned" : ""),
                         .remedy = options_.aligned ? remedy_of_aligned(scan)
@@ -315,14 +305,15 @@ class TableBuilder {
              std::to_string(geometry_.teeth()) + " teeth";
     const double module = geometry_.gear().normal_module_mm;
     if (std::abs(row.deviation_um) > 500.0 * module)
-      return "a deviation of " + number_text(row.deviation_um) + " um is no deviation of this gear";
+      return "a deviation of " + trimmed_number(row.deviation_um) +
+             " um is no deviation of this gear";
     const auto [least, most] = std::minmax({geometry_.tip_radius_mm(), geometry_.root_radius_mm()});
     // A ball in the gap stands further out than the teeth.
     const double reach = row.record == RecordKind::kRadial ? 3.0 * module : 0.3 * module;
     if (0.5 * row.diameter_mm < least - reach || 0.5 * row.diameter_mm > most + reach)
-      return "diameter " + number_text(row.diameter_mm) + " mm lies outside this gear's teeth";
+      return "diameter " + trimmed_number(row.diameter_mm) + " mm lies outside this gear's teeth";
     if (std::abs(geometry_.face_coordinate(row.z_mm)) > 1.3)
-      return "z " + number_text(row.z_mm) + " mm lies outside this gear's face";
+      return "z " + trimmed_number(row.z_mm) + " mm lies outside this gear's face";
     return {};
   }
 
@@ -337,9 +328,9 @@ class TableBuilder {
     const double z = std::isnan(row.z_mm) ? 0.5 * geometry_.face_width_mm() : row.z_mm;
     const double u = geometry_.profile_coordinate(roll);
     if (row.record != RecordKind::kRadial && std::abs(u) > 1.05)
-      return "diameter " + number_text(row.diameter_mm) + " mm is not on the involute";
+      return "diameter " + trimmed_number(row.diameter_mm) + " mm is not on the involute";
     if (std::abs(geometry_.face_coordinate(z)) > 1.02)
-      return "z " + number_text(z) + " mm is not on the face";
+      return "z " + trimmed_number(z) + " mm is not on the face";
     if (row.record == RecordKind::kRadial) return add_radial(data, row, source, z);
     constexpr std::array kKinds{ObservationKind::kProfile, ObservationKind::kHelix,
                                 ObservationKind::kIndex};
@@ -380,7 +371,7 @@ class TableBuilder {
     const double ball = is_told ? data.ball_diameter_mm : recommended_pin_diameter_mm(geometry_.gear());
     const auto contact = geometry_.ball_contact(ball);
     if (std::isnan(contact.roll_mm) || (is_told && !is_near_flank(contact.roll_mm)))
-      return "a ball of " + number_text(ball) + " mm touches no flank of this gear";
+      return "a ball of " + trimmed_number(ball) + " mm touches no flank of this gear";
     const int trace =
         data.common_zero ? -1 : zeros_.of({static_cast<int>(row.record), 0, 0, source});
     Observation& added =
@@ -410,7 +401,7 @@ class TableBuilder {
     switch (size.quantity) {
       case SizeQuantity::kSpan:
         if (size.detail > geometry_.teeth() || size.detail != std::floor(size.detail))
-          return "a span over " + number_text(size.detail) + " teeth of a gear with " +
+          return "a span over " + trimmed_number(size.detail) + " teeth of a gear with " +
                  std::to_string(geometry_.teeth());
         nominal = base_tangent_length_mm(geometry_.gear(), static_cast<int>(size.detail));
         roll = 0.5 * nominal * cos_helix;
@@ -420,7 +411,7 @@ class TableBuilder {
       case SizeQuantity::kOverPins: {
         nominal = over_pins_mm(geometry_.gear(), size.detail);
         if (std::isnan(nominal))
-          return "a pin of " + number_text(size.detail) + " mm touches no flank";
+          return "a pin of " + trimmed_number(size.detail) + " mm touches no flank";
         const auto contact = geometry_.ball_contact(size.detail);
         roll = contact.roll_mm;
         const double odd =
@@ -448,8 +439,8 @@ class TableBuilder {
     }
     const double deviation = um_from_mm(size.value_mm - nominal);
     if (std::abs(deviation) > 1000.0 * geometry_.gear().normal_module_mm)
-      return "a size of " + number_text(size.value_mm) + " mm, designed " + number_text(nominal) +
-             " mm, is no size of this gear";
+      return "a size of " + trimmed_number(size.value_mm) + " mm, designed " +
+             trimmed_number(nominal) + " mm, is no size of this gear";
     sizes_.push_back({table.rows.size(), size.quantity, size.detail});
     Observation& row = add_row(ObservationKind::kSize, deviation, size.sigma_um, source);
     if (surface == Surface::kFlank)

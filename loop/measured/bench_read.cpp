@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 
+#include "trueflank/base/ascii_letters.h"
 #include "trueflank/loop/measured/bench_data.h"
 #include "trueflank/loop/measured/csv_rows.h"
 

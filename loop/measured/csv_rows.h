@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "trueflank/base/ascii_letters.h"
 #include "trueflank/loop/measured/text_table.h"
 
 namespace trueflank::loop {

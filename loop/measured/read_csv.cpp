@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "trueflank/base/ascii_letters.h"
 #include "trueflank/base/large_pages.h"
 #include "trueflank/base/threads.h"
 #include "trueflank/loop/measured/csv_rows.h"

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "trueflank/base/ascii_letters.h"
 #include "trueflank/loop/measured/read_measurement.h"
 #include "trueflank/loop/measured/text_table.h"
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "trueflank/base/ascii_letters.h"
 #include "trueflank/export/input_file.h"
 #include "trueflank/export/mesh_reader.h"
 #include "trueflank/loop/measured/text_table.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "trueflank/base/ascii_letters.h"
 #include "trueflank/loop/measured/read_measurement.h"
 #include "trueflank/loop/measured/text_table.h"
 

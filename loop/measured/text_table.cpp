@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/measured/text_table.h"
 
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -56,12 +55,6 @@ std::string_view trimmed(std::string_view text) {
   if (text.size() >= 2 && text.front() == '"' && text.back() == '"')
     text = text.substr(1, text.size() - 2);
   return text;
-}
-
-std::string lowered(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
 }
 
 void split_fields(std::string_view line, std::vector<std::string_view>& fields) {

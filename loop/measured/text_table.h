@@ -22,7 +22,6 @@ constexpr std::size_t kMostBytesOfText = 32U << 20;
 /// Next line of a text without its end (LF or CRLF); the text moves on behind it.
 [[nodiscard]] std::string_view next_line(std::string_view& text);
 [[nodiscard]] std::string_view trimmed(std::string_view text);
-[[nodiscard]] std::string lowered(std::string_view text);
 /// Fields between separators (comma, semicolon or tab, whichever the line has), trimmed; the first 10 000.
 void split_fields(std::string_view line, std::vector<std::string_view>& fields);
 /// Fields between blanks or commas, trimmed; the first 10 000.

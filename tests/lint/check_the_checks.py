@@ -8,6 +8,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import check_layers
+import check_locale
 import check_names
 import check_nodiscard
 
@@ -153,6 +154,18 @@ class Nodiscard(Tree):
             "void take(const Result<int>& r, Result<double> other);\n"
             "struct S {\n  Result<int> member;\n  std::function<Result<int>(int)> call;\n};\n"
             "inline int f() {\n  const Result<int> r = g();\n  return *r;\n}\n"), [])
+
+
+class Locale(unittest.TestCase):
+    def test_what_hangs_on_the_locale_is_found(self):
+        for asked in ("vsnprintf", "__vsnprintf_chk", "tolower", "isalpha", "__isoc99_sscanf", "setlocale"):
+            complaints = check_locale.check(f"a.a:u.o:                 U {asked}\na.a:u.o:                 U memcpy\n")
+            self.assertEqual(len(complaints), 1, asked)
+            self.assertIn("a.a:u.o asks for", complaints[0])
+
+    def test_other_names_are_none(self):
+        self.assertEqual(check_locale.check("a.a:u.o:     U snprintf\na.a:u.o:     U _ZN1a7tolowerEv\n"
+                                            "a.a:u.o:     T tolower\na.a:u.o:     U strtod\n"), [])
 
 
 if __name__ == "__main__":

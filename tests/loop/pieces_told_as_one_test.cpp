@@ -21,7 +21,10 @@
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/settled_names.h"
+#include "trueflank/loop/gear/part/single_teeth.h"
 #include "trueflank/loop/gear/part/taken_up.h"
+#include "trueflank/loop/gear/part/tidying.h"
+#include "trueflank/loop/gear/part/waves.h"
 
 // An answer in pieces, as the choice may come to, and what is told instead: asked by itself, as no
 // search needs to come to the pieces first.
@@ -311,6 +314,92 @@ TEST(PiecesNamed, AnEccentricityThatWentIsTakenUpAgainWhereItIsThere) {
     Pieces pieces(spur(20), made, {piece("crowning", {})});
     EXPECT_EQ(take_up_again(*pieces, {piece("eccentricity", {})}), off_axis);
   }
+}
+
+// Equal slopes of all flanks and one of the flanks of one side are opposite slopes, and the other
+// way round.
+TEST(PiecesNamed, ANameAndThatOfOneSideThatAreAThirdName) {
+  for (const bool turned : {false, true})
+    for (const FlankChoice side : {FlankChoice::kLeft, FlankChoice::kRight})
+      for (const bool equal : {true, false}) {
+        const auto made = [=](auto&, const FlankSpot& s, auto&) {
+          return 6.0 * s.v * (equal ? s.side : 1.0) + 3.0 * s.u;
+        };
+        std::vector<Effect> names{piece(equal ? "taper" : "helix_error", {}),
+                                  piece(equal ? "taper" : "helix_error", {}, side),
+                                  piece("pressure_angle_error", {})};
+        if (turned) std::reverse(names.begin(), names.end());
+        Pieces pieces(spur(20), grown(made), names);
+        tell_two_names_as_one(*pieces);
+        EXPECT_EQ(pieces.told().size(), 2U) << pieces.text();
+        EXPECT_TRUE(pieces.has(equal ? "helix_error" : "taper")) << pieces.text();
+        EXPECT_TRUE(pieces.has("pressure_angle_error")) << pieces.text();
+        for (const Effect& effect : pieces.told())
+          EXPECT_EQ(effect.flank, FlankChoice::kBoth) << pieces.text();
+      }
+}
+
+// Two slopes of sizes that no third name has stay two, of all flanks.
+TEST(PiecesNamed, ANameAndThatOfOneSideThatAreTwoNamesOfAllFlanks) {
+  for (const bool turned : {false, true})
+    for (const FlankChoice side : {FlankChoice::kLeft, FlankChoice::kRight}) {
+      const double of_side = side == FlankChoice::kLeft ? 1.0 : -1.0;
+      const auto made = [=](auto&, const FlankSpot& s, auto&) {
+        return (8.0 + (s.side == of_side ? 5.0 : 0.0)) * s.v;
+      };
+      std::vector<Effect> names{piece("taper", {}), piece("taper", {}, side)};
+      if (turned) std::reverse(names.begin(), names.end());
+      Pieces pieces(spur(20), grown(made), names);
+      tell_two_names_as_one(*pieces);
+      ASSERT_EQ(pieces.told().size(), 2U) << pieces.text();
+      tell_one_flank_as_two_names_of_all(*pieces);
+      ASSERT_EQ(pieces.told().size(), 2U) << pieces.text();
+      EXPECT_TRUE(pieces.has("taper")) << pieces.text();
+      EXPECT_TRUE(pieces.has("helix_error")) << pieces.text();
+      for (const Effect& effect : pieces.told())
+        EXPECT_EQ(effect.flank, FlankChoice::kBoth) << pieces.text();
+    }
+}
+
+// Three waves of like size, none a multiple of the lowest, are one odd form; one by itself, one far
+// larger than the others, and the multiples of jaws are waves.
+TEST(PiecesToldAsOne, WavesOfThePitchThatAreOneOddForm) {
+  struct Case {
+    std::vector<double> orders, sizes_um;
+    bool odd;
+  };
+  for (const Case& each : {Case{{2.0, 3.0, 5.0}, {6.0, 5.0, 5.0}, true}, Case{{2.0}, {6.0}, false},
+                           Case{{2.0, 3.0, 5.0}, {20.0, 1.0, 1.0}, false},
+                           Case{{3.0, 6.0, 9.0}, {8.0, 5.0, 4.0}, false}}) {
+    const auto made = [&](const MadeGear& g, const FlankSpot& s, auto&) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < each.orders.size(); ++k)
+        sum += each.sizes_um[k] * std::cos(2.0 * M_PI * each.orders[k] * s.tooth / g.teeth);
+      return s.side * sum;
+    };
+    std::vector<Effect> waves{piece("taper", {})};
+    for (const double order : each.orders) waves.push_back(piece("pitch_wave", {order}));
+    Pieces pieces(spur(24), grown(made), waves);
+    tell_waves_of_a_form(*pieces);
+    EXPECT_TRUE(pieces.has("taper")) << pieces.text();
+    // (the largest of them)
+    EXPECT_EQ(pieces.told()[1].family->named, !each.odd) << pieces.text();
+  }
+}
+
+// The false alarm rate is that of all tables together.
+TEST(PiecesToldAsOne, NeighboursShareWhereChanceDoesNotAmongAllTables) {
+  Pieces pieces(spur(20), grown([](auto&, auto&, auto&) { return 0.0; }), {piece("taper", {})},
+                500);
+  for (const int tables : {1, 2, 5})
+    for (const double share : {0.1, 0.9, 1.1, 1.9, 6.0}) {
+      (*pieces).options.tables = tables;
+      loop::SharedByNeighbours shared;
+      shared.p_value = share * 0.002 / tables;
+      EXPECT_EQ(is_shared(*pieces, shared), share < 1.0) << tables << " " << share;
+      (*pieces).neighbours = shared;
+      EXPECT_EQ(neighbours_share(*pieces), share < 1.0) << tables << " " << share;
+    }
 }
 
 }  // namespace

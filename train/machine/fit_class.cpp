@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 
+#include "trueflank/base/ascii_letters.h"
 #include "trueflank/base/contract.h"
 
 namespace trueflank {
@@ -125,20 +125,19 @@ double standard_tolerance_mm(int grade, double size_mm) {
 
 std::optional<FitLimits> fit_limits(const std::string& name, double size_mm) {
   std::size_t letters = 0;
-  while (letters < name.size() && std::isalpha(static_cast<unsigned char>(name[letters])) != 0) ++letters;
+  while (letters < name.size() && is_letter(name[letters])) ++letters;
   const std::string digits = name.substr(letters);
   if (letters == 0 || letters > 2 || digits.empty() || digits.size() > 2 || digits[0] == '0' ||
-      !std::all_of(digits.begin(), digits.end(),
-                   [](unsigned char c) { return std::isdigit(c) != 0; }) ||
+      !std::all_of(digits.begin(), digits.end(), is_digit) ||
       !(size_mm > 0.0 && size_mm <= kLargestFit_mm))
     return std::nullopt;
   const int grade = std::stoi(digits);
   if (grade < kFirstGrade || grade > kLastGrade) return std::nullopt;
   std::string letter = name.substr(0, letters);
-  const bool hole = std::isupper(static_cast<unsigned char>(letter[0])) != 0;
+  const bool hole = is_capital(letter[0]);
   for (char& c : letter) {
-    if ((std::isupper(static_cast<unsigned char>(c)) != 0) != hole) return std::nullopt;
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (is_capital(c) != hole) return std::nullopt;
+    c = as_small(c);
   }
   if (letter == "js") {
     const double half = 0.5 * standard_tolerance_mm(grade, size_mm);
@@ -155,9 +154,7 @@ std::string FitClasses::text() const {
 
 std::optional<FitClasses> fit_classes(const std::string& text) {
   constexpr double kAnySize_mm = 10.0;
-  const auto is_hole = [](const std::string& name) {
-    return !name.empty() && std::isupper(static_cast<unsigned char>(name[0])) != 0;
-  };
+  const auto is_hole = [](const std::string& name) { return !name.empty() && is_capital(name[0]); };
   const std::size_t bar = text.find('/');
   FitClasses classes;
   if (bar != std::string::npos)

@@ -2,9 +2,9 @@
 #include "trueflank/solid/shape/machine/bought_parts.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
+#include "trueflank/base/ascii_letters.h"
 #include "trueflank/base/number_text.h"
 #include "trueflank/solid/shape/machine/machine_pieces.h"
 
@@ -16,7 +16,7 @@ constexpr double kApart_mm = 0.02;
 
 /// "m3x12", fit for a file's name.
 std::string file_text(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  text = lowered(text);
   std::replace(text.begin(), text.end(), '.', '_');
   return text;
 }
