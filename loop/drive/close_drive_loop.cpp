@@ -6,6 +6,7 @@
 #include <set>
 
 #include "trueflank/base/number_text.h"
+#include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/drive/bench_remainder.h"
 #include "trueflank/loop/drive/bench_visits.h"
 #include "trueflank/loop/drive/drive_selection.h"
@@ -77,6 +78,7 @@ class DriveReport {
           "a loss that follows the course of the run leaves less than one that follows the temperature, "
           "which changed with it: the same set points again, cold and warm, would tell";
     }
+    if (r.verdict == Verdict::kNoEffect) say_where_set_points_lie_off(left, r);
     if (r.verdict != Verdict::kPartlyExplained) say_what_neighbours_share(left, effects, r);
     done.before_nm.assign(selection_.value_nm().data(),
                           selection_.value_nm().data() + selection_.value_nm().size());
@@ -142,6 +144,49 @@ class DriveReport {
   /// A quarter above the noise, and as much more as the rms of so few rows may scatter.
   [[nodiscard]] static double larger_than_noise(double noise, int rows) {
     return noise * (1.25 + 3.0 / std::sqrt(2.0 * std::max(1, rows)));
+  }
+
+  /// Few set points of many rows each can be turned over in so few ways that no effect is surer
+  /// than chance: then readings within a set point, as many of them as do not hang together, say
+  /// whether the set points are off the model.
+  void say_where_set_points_lie_off(const Eigen::VectorXd& left, LoopResult& r) const {
+    constexpr double kSure = 1e-6, kSlow = 0.95, kRowsEach = 20.0;
+    constexpr int kFewest = 3;
+    const auto& points = selection_.table().points;
+    const std::vector<int> visit = visits_of(points, set_points_of(points));
+    const int visits = visit.empty() ? 0 : visit.back() + 1;
+    const auto rows = static_cast<double>(points.size());
+    if (visits < kFewest || rows < kRowsEach * visits) return;
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(visits), count = mean;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      mean[visit[i]] += left[static_cast<Eigen::Index>(i)];
+      count[visit[i]] += 1.0;
+    }
+    mean = mean.cwiseQuotient(count).eval();
+    double within = 0.0, beside = 0.0, last = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double off = left[static_cast<Eigen::Index>(i)] - mean[visit[i]];
+      within += off * off;
+      if (i > 0 && visit[i] == visit[i - 1]) beside += off * last;
+      last = off;
+    }
+    const double alike = std::max(0.0, beside / within);
+    if (!(within > 0.0) || alike > kSlow) return;
+    const double square = within / (rows - visits), together = (1.0 + alike) / (1.0 - alike),
+                 off_square = count.dot(mean.cwiseAbs2()) / visits;
+    const double p = f_tail(off_square / (square * together), visits, (rows - visits) / together);
+    if (p > kSure) return;
+    r.verdict = Verdict::kPartlyExplained;
+    r.structure_left_p_value = std::min(r.structure_left_p_value, p);
+    r.noise = std::sqrt(square);
+    r.structure_left = printed(
+        "the %d set points lie %.2g N m off the model, and readings of one set point scatter by "
+        "%.2g N m: something is lost or read wrong, but so few set points do not tell what",
+        visits, std::sqrt(off_square * visits / rows), r.noise);
+    r.measure_next.insert(
+        r.measure_next.begin(),
+        "run more loads and speeds, ten set points or more: these are too few to tell "
+        "one effect from chance");
   }
 
   /// Errors that hang together look like something slow: who reads "noise" is told so.

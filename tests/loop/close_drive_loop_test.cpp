@@ -115,6 +115,47 @@ TEST(DriveLoop, SaysNoEffectWhereNoneIs) {
   EXPECT_LT(alarms, 4);
 }
 
+/// Six dwells of 150 rows: three loads in either direction, at one speed, with a loss at the input
+/// and errors of which a share hangs together from row to row.
+std::string six_dwells(double loss_nm, double together, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  const loop::DriveEfficiency e = bench_model().at(0.1);
+  const double ratio = bench_model().ratio;
+  std::string text = "direction,input_speed_rpm,input_torque_nm,output_torque_nm\n";
+  double error = normal(random);
+  for (const bool forward : {true, false})
+    for (const double load_nm : {10.0, 20.0, 35.0})
+      for (int row = 0; row < 150; ++row) {
+        error = together * error + std::sqrt(1.0 - together * together) * normal(random);
+        const double input_nm = forward ? load_nm / (ratio * e.forward) + loss_nm
+                                        : load_nm * e.backward / ratio - loss_nm + 0.002 * error;
+        const double output_nm = load_nm + (forward ? 0.002 * ratio * error : 0.0);
+        text += std::string(forward ? "forward" : "backward") + ",1000," +
+                std::to_string(input_nm) + "," + std::to_string(output_nm) + "\n";
+      }
+  return text;
+}
+
+// So few set points can be turned over in too few ways for any effect to be surer than chance, but
+// the readings of each say that they are off the model.
+TEST(DriveLoop, AFewSetPointsFarOffTheModelAreNotCalledNoise) {
+  for (const double together : {0.0, 0.6, 0.85})
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      const auto closed = close_bench_text(six_dwells(0.012, together, seed));
+      ASSERT_TRUE(closed);
+      EXPECT_NE(closed->result.verdict, Verdict::kNoEffect) << loop::loop_text(closed->result);
+    }
+  int alarms = 0;
+  for (const double together : {0.0, 0.6, 0.85, 0.95})
+    for (unsigned seed = 1; seed <= 8; ++seed) {
+      const auto closed = close_bench_text(six_dwells(0.0, together, 100 + seed));
+      ASSERT_TRUE(closed);
+      alarms += closed->result.verdict != Verdict::kNoEffect;
+    }
+  EXPECT_LE(alarms, 2);
+}
+
 TEST(DriveLoop, TwoEffectsAreFoundTogether) {
   HiddenDrive drive = rubbing([](auto&, int) { return 0.13; });
   drive.loss_nm = [](auto& m) { return 0.002 + 2e-6 * m.rpm; };

@@ -157,8 +157,9 @@ TEST(FlankCourses, OfAFitAreItsColumnsTimesTheirCoefficients) {
             EXPECT_TRUE(alike < 0.1 || alike > 0.9) << alike;
             EXPECT_EQ(changes_along(geometry, fit, e, along_other, face), alike > 0.9)
                 << e << " along " << other;
-            if (loop::kind_of(along_other) != kind)
+            if (loop::kind_of(along_other) != kind) {
               EXPECT_LT(alike, 0.1) << e << " along " << other;
+            }
           }
         }
         // heights and slopes that are opposite on the two flanks are left out
