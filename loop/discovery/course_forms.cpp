@@ -44,7 +44,8 @@ CourseForms::CourseForms(Index m) : basis(cosines(m)) {
     const double slope = kink.dot(line) / line.squaredNorm();
     kink -= slope * line;
     add(CourseKind::kKink, static_cast<double>(i), 0.0, std::move(kink));
-    forms.back().line_slope = 2.0 * slope * (1.0 - static_cast<double>(i) / static_cast<double>(m));
+    // (the line goes from the middle of the first row to that of the last)
+    forms.back().line_slope = 2.0 * slope * static_cast<double>(m - i) / static_cast<double>(m - 1);
   }
   for (double width = 1.2; width < 0.25 * static_cast<double>(m); width *= 1.6)
     for (double at = 0.5; at < static_cast<double>(m); at += std::max(0.5, 0.4 * width)) {

@@ -316,7 +316,7 @@ class CourseScan {
     const VectorXd line = VectorXd::LinSpaced(m_, -1.0, 1.0);
     const double bend = found.amount / (1.0 - found.at);
     const VectorXd straight = mean - found.amount * form.values;
-    const double common = 2.0 * line.dot(straight) / line.squaredNorm();
+    const double common = 2.0 * line.dot(straight) / line.squaredNorm() * m / (m - 1.0);
     found.before = common - bend * form.line_slope;
     found.beyond = found.before + bend;
     return found;
@@ -485,7 +485,7 @@ class CourseScan {
     }
     CourseFinding best{CourseKind::kSpot};
     double tests = 0.0;
-    for (Index width = 4; width <= m_ / 3; width = std::max(width + 1, width * 8 / 5))
+    for (Index width = 4; width <= m_ / 3; width = width * 8 / 5)
       for (const bool clip : {true, false}) {
         std::vector<double> all;
         std::vector<MatrixXd> windows;

@@ -235,10 +235,6 @@ std::vector<double> ToothingGrid::column_steps(const std::vector<NetEdge>& edges
     bound(column, 2.0 * std::acos(1.0 - std::min(1.0, aim_mm / radius)));
   };
   for (std::size_t i = 0; i < n;) {
-    if (i > 0 && edges[i].region == edges[i - 1].region) {
-      ++i;
-      continue;
-    }
     std::size_t end = i + 1;
     while (end < n && edges[end].region == edges[i].region) ++end;
     const std::size_t piece = middles_[i].piece;

@@ -61,6 +61,11 @@ TEST(ColumnPanels, HoldWholeGroupsAndNoLocalOnesBesideOthers) {
     }
     EXPECT_EQ(panel.columns, columns);
     next += panel.groups;
+    if (next == static_cast<int>(problem.groups.size())) break;
+    // the next one does not fit, or is of the other kind
+    EXPECT_TRUE(columns + problem.groups[next].columns > static_cast<int>(kPanelColumns) ||
+                problem.groups[next].local_family != problem.groups[next - 1].local_family)
+        << next;
   }
   EXPECT_EQ(next, static_cast<int>(problem.groups.size()));
 }
@@ -335,6 +340,51 @@ TEST(Agreement, OfGroupsOfColumnsCountsTheDirectionsThatAWholeHolds) {
     ++asked;
   }
   EXPECT_GT(asked, 10);
+}
+
+// Columns of whole numbers at right angles and of one length in a whole: no direction of the two
+// is the first.
+TEST(Agreement, OfTwoColumnsAlikeInAWholeCountsBoth) {
+  constexpr int kWholes = 12, kOfWhole = 4;
+  DiscoveryProblem problem = random_problem(8);
+  const int n = kWholes * kOfWhole;
+  problem.groups = {{.first_column = 0, .columns = 2}};
+  problem.value.conservativeResize(n);
+  problem.weight.setOnes(n);
+  problem.nuisance.setOnes(n, 1);
+  problem.candidates.resize(n, 2);
+  for (auto* numbers : {&problem.unit, &problem.fold, &problem.zero, &problem.whole})
+    numbers->resize(n, -1);
+  Eigen::Vector2d score = Eigen::Vector2d::Zero();
+  const double mean = problem.value.mean();
+  for (int i = 0; i < n; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const int whole = i / kOfWhole, k = i % kOfWhole, size = 1 + whole % 3;
+    problem.unit[at] = problem.whole[at] = whole;
+    problem.fold[at] = 1 + whole % 4;
+    problem.candidates(i, 0) = static_cast<float>(k % 2 == 0 ? size : -size);
+    problem.candidates(i, 1) = static_cast<float>(k < 2 ? size : -size);
+  }
+  // (in one of them the first is longer)
+  problem.candidates.topRows(kOfWhole).col(0) *= 4.0f;
+  Eigen::Vector2d gram = Eigen::Vector2d::Zero();
+  double total = 0.0;
+  for (int whole = 0; whole < kWholes; ++whole) {
+    const Eigen::MatrixXd own =
+        problem.candidates.middleRows(whole * kOfWhole, kOfWhole).cast<double>();
+    const Eigen::Vector2d of_whole =
+        own.transpose() *
+        (problem.value.segment(whole * kOfWhole, kOfWhole).array() - mean).matrix();
+    const Eigen::Vector2d squares = own.colwise().squaredNorm();
+    score += of_whole;
+    gram += squares;
+    total += of_whole.cwiseAbs2().cwiseQuotient(squares).sum();
+  }
+  const double explained = score.cwiseAbs2().cwiseQuotient(gram).sum();
+  constexpr double kBelow = 2.0 * kWholes - 2.0 - 1.0;
+  const std::vector<double> p = SeenByHand(problem).agreement();
+  ASSERT_EQ(p.size(), 1U);
+  EXPECT_NEAR(p[0], f_tail(explained / 2.0 / ((total - explained) / kBelow), 2.0, kBelow), 1e-9);
 }
 
 TEST(Agreement, IsAskedOfFourToTwentyFourWholes) {

@@ -507,6 +507,35 @@ TEST(CourseScanFigures, AKinkHasTheSlopesToItsSides) {
   }
 }
 
+// Of a course that is cut into as many equal rows as it has values; its bend between two of them.
+TEST(CourseScanFigures, AKinkBetweenTwoRowsIsToldToTheDigit) {
+  std::mt19937_64 random(9);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> any(-4.0, 4.0);
+  for (int trial = 0; trial < 20; ++trial) {
+    const int places = 40 + trial, end = std::max(3, places / 16);
+    const int bend = end + (7 * trial) % (places - 2 * end + 1);
+    const double at = static_cast<double>(bend) / places, before = any(random);
+    const double beyond = before + (trial % 2 == 0 ? 3.0 : -5.0);
+    Eigen::MatrixXd courses =
+        Eigen::MatrixXd::NullaryExpr(places, 5, [&] { return 1e-6 * normal(random); });
+    for (int i = 0; i < places; ++i) {
+      const double off = (i + 0.5) / places - at;
+      courses.row(i).array() += (off < 0.0 ? before : beyond) * off;
+    }
+    courses.rowwise() -= courses.colwise().mean().eval();
+    const auto found = scan_courses({courses});
+    const auto kink = std::find_if(found.begin(), found.end(), [](const CourseFinding& f) {
+      return f.kind == CourseFinding::Kind::kKink;
+    });
+    ASSERT_NE(kink, found.end()) << trial;
+    EXPECT_DOUBLE_EQ(kink->at, at) << trial;
+    EXPECT_NEAR(kink->before, before, 1e-4) << trial;
+    EXPECT_NEAR(kink->beyond, beyond, 1e-4) << trial;
+    EXPECT_NEAR(kink->amount, (beyond - before) * (1.0 - at), 1e-4) << trial;
+  }
+}
+
 TEST(ChanceOfAgreement, IsStudentsOfTheCorrelation) {
   Eigen::VectorXd a(6), b(6);
   a << 1.0, 4.0, 2.0, 7.0, 5.0, 3.0;

@@ -199,5 +199,27 @@ TEST(LoudPlaces, AToothThatIsMeasuredWorseDoesNotAgreeWithItself) {
   EXPECT_EQ(alarms, 0) << told;
 }
 
+TEST(RoughZone, OfTornFlanksIsToldAndNoSpots) {
+  const MadeGear gear = spur(31);
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    const auto torn = [&](auto&, const FlankSpot& s, auto&) {
+      return s.v > 0.3 ? 8.0 * normal(random) : 0.0;
+    };
+    InspectionOptions options;
+    options.teeth = {1, 9, 17, 24};
+    options.points = 120;
+    options.noise_um = 1.6;
+    options.index = false;
+    options.seed = seed;
+    const auto result = close(gear, inspection_of(gear, {grown(torn)}, options));
+    EXPECT_EQ(result.verdict, loop::Verdict::kPartlyExplained) << list(result);
+    EXPECT_NE(result.structure_left.find("rougher between heights of"), std::string::npos)
+        << list(result);
+    EXPECT_FALSE(tells_spot(result)) << list(result);
+  }
+}
+
 }  // namespace
 }  // namespace trueflank::test

@@ -10,7 +10,6 @@
 
 #include "tests/loop/made_gears.h"
 #include "trueflank/loop/discovery/course_scan.h"
-#include "trueflank/loop/discovery/rougher_members.h"
 
 // What one tooth, or some teeth side by side, have by themselves.
 namespace trueflank::test {
@@ -241,52 +240,6 @@ TEST(WavesOfFewTraces, NameTheirTeeth) {
   const auto result = close(gear, inspection_of(gear, {grown(shaken)}, options));
   EXPECT_NE(result.structure_left.find("on teeth 14 to 16"), std::string::npos)
       << result.structure_left;
-}
-
-/// Scatters of `teeth` members on either side, told from `values` differences each.
-std::vector<loop::MemberScatter> scatters(unsigned seed, int teeth, double values,
-                                          const std::function<double(int tooth)>& loud) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> log(0.0, std::sqrt(2.5 / values));
-  std::vector<loop::MemberScatter> all;
-  for (int tooth = 1; tooth <= teeth; ++tooth)
-    for (const int set : {0, 1})
-      all.push_back({tooth, set, loud(tooth) * std::exp(log(random)), values});
-  return all;
-}
-
-TEST(RougherMembers, TellAGrowthAndARunWithTheirSizes) {
-  for (unsigned seed = 1; seed <= 5; ++seed) {
-    const auto grows = loop::rougher_members(
-        scatters(seed, 30, 60.0, [](int tooth) { return 1.0 + 2.5 * (tooth - 1) / 29.0; }));
-    ASSERT_TRUE(grows.has_value());
-    EXPECT_TRUE(grows->grows);
-    EXPECT_LT(grows->p_value, 1e-6);
-    EXPECT_EQ(grows->last, 30);
-    EXPECT_NEAR(grows->times, 3.5, 1.2);
-    const auto run = loop::rougher_members(
-        scatters(seed, 30, 60.0, [](int tooth) { return tooth >= 8 && tooth <= 12 ? 3.0 : 1.0; }));
-    ASSERT_TRUE(run.has_value());
-    EXPECT_FALSE(run->grows);
-    EXPECT_EQ(run->first, 8);
-    EXPECT_EQ(run->last, 12);
-    EXPECT_NEAR(run->times, 3.0, 0.7);
-    EXPECT_LT(run->p_value, 1e-6);
-  }
-}
-
-TEST(RougherMembers, AreSeldomFoundWhereLoudnessDiffersByChance) {
-  constexpr unsigned kRuns = 400;
-  constexpr double kLevel = 0.01;
-  int alarms = 0;
-  for (unsigned seed = 1; seed <= kRuns; ++seed) {
-    std::mt19937_64 random(1000 + seed);
-    std::normal_distribution<double> log(0.0, 0.5);
-    const auto found = loop::rougher_members(scatters(seed, 8 + static_cast<int>(seed % 40), 50.0,
-                                                      [&](int) { return std::exp(log(random)); }));
-    alarms += found && found->p_value < kLevel ? 1 : 0;
-  }
-  EXPECT_LE(alarms, 12);  // 4 of 400 at the level; more than 12 once in 2000 runs
 }
 
 }  // namespace

@@ -110,6 +110,17 @@ TEST(Selection, WhatIsIdleBesideLaterOnesIsRemoved) {
   EXPECT_EQ(p.chosen(), (Groups{kA, kB}));
 }
 
+// What is on one place alone is no effect that could be idle; what stands behind it may be.
+TEST(Selection, WhatIsIdleIsRemovedBehindWhatIsOnOnePlaceAlone) {
+  constexpr int kLocal = 15;
+  Problem p(1.0, 1.0, 400.0);
+  p.column(kD) = p.column(kA) + p.column(kB) + 1.2f * p.column(kD);
+  p.problem.value += 40.0 * p.column(kLocal).cast<double>();
+  EXPECT_EQ(p.chosen(1), Groups{kLocal});
+  EXPECT_EQ(p.chosen(2), (Groups{kD, kLocal}));
+  EXPECT_EQ(p.chosen(), (Groups{kA, kB, kLocal}));
+}
+
 TEST(Selection, WhatAnotherPredictsBetterIsReplaced) {
   Problem p(1.0, 1.0, 400.0);
   p.column(kD) = p.column(kA) + p.column(kB) + 1.2f * p.column(kD);
@@ -117,11 +128,13 @@ TEST(Selection, WhatAnotherPredictsBetterIsReplaced) {
 }
 
 TEST(Selection, AnEffectIsReplacedByItselfAtAnotherShape) {
-  Problem p(1.0, 1.0, 400.0);
-  p.column(kD) = p.column(kA) + p.column(kB) + 1.2f * p.column(kD);
-  p.group(kD).kin = p.group(kB).kin = 1;  // B does not enter beside D
-  EXPECT_EQ(p.chosen(), (Groups{kA, kB}));
-  EXPECT_EQ(p.chosen(1), Groups{kD});
+  for (const int kin : {0, 1}) {
+    Problem p(1.0, 1.0, 400.0);
+    p.column(kD) = p.column(kA) + p.column(kB) + 1.2f * p.column(kD);
+    p.group(kD).kin = p.group(kB).kin = kin;  // B does not enter beside D
+    EXPECT_EQ(p.chosen(), (Groups{kA, kB}));
+    EXPECT_EQ(p.chosen(1), Groups{kD});
+  }
 }
 
 TEST(Selection, OfEquallyGoodOnesPreferenceThenColumnsThenSimplicityThenGainThenOrderDecide) {

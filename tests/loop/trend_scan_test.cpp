@@ -3,8 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
+#include <vector>
+
+#include "trueflank/loop/discovery/distributions.h"
 
 namespace trueflank::test {
 namespace {
@@ -94,6 +99,108 @@ TEST(OwnTrend, WhatAllHaveInCommonIsNone) {
   const auto trend = loop::own_trend({values});
   ASSERT_TRUE(trend);
   EXPECT_GT(trend->p_value, kLevel);
+}
+
+/// Polynomials at right angles over the rows, each from the two before it.
+MatrixXd legendre_of(Index rows, Index count) {
+  const VectorXd x = VectorXd::LinSpaced(rows, -1.0, 1.0);
+  MatrixXd all(rows, count);
+  for (Index k = 0; k < count; ++k) {
+    VectorXd next =
+        k == 0 ? VectorXd(VectorXd::Ones(rows)) : VectorXd(x.cwiseProduct(all.col(k - 1)));
+    for (int twice = 0; twice < 2; ++twice)
+      for (Index of = std::max<Index>(0, k - 2); of < k; ++of)
+        next -= next.dot(all.col(of)) * all.col(of);
+    all.col(k) = next.normalized();
+  }
+  return all;
+}
+
+/// What the header says: each degree's power, the power laws of the degrees above, an F test.
+std::optional<loop::OwnTrend> trend_by_hand(const std::vector<MatrixXd>& sets) {
+  const Index rows = sets.front().rows();
+  double courses = 0.0;
+  for (const MatrixXd& set : sets)
+    courses += set.cols() > 2 ? static_cast<double>(set.cols()) - 1.0 : 0.0;
+  const auto asked = static_cast<Index>(1.0 + std::floor(100.0 / courses));
+  const Index count = std::max<Index>(9, std::min({asked, Index{25}, rows / 3}));
+  const MatrixXd basis = legendre_of(rows, count);
+  std::vector<double> power(static_cast<std::size_t>(count));
+  for (Index k = 0; k < count; ++k)
+    for (const MatrixXd& set : sets)
+      for (Index c = 0; c < set.cols() && set.cols() > 2; ++c) {
+        const VectorXd own = set.col(c) - set.rowwise().mean();
+        power[static_cast<std::size_t>(k)] += std::pow(own.dot(basis.col(k)), 2) / courses;
+      }
+  std::optional<loop::OwnTrend> surest;
+  const auto ask = [&](int degree, std::size_t from, double still_an_error) {
+    const double of_degrees = static_cast<double>(power.size() - from);
+    std::vector<double> likelihoods, levels;
+    for (int quarter = 0; quarter <= 12; ++quarter) {
+      const auto law = [&](std::size_t k) {
+        return std::pow(static_cast<double>(k), -0.25 * quarter);
+      };
+      double level = 0.0, likelihood = 0.0;
+      for (std::size_t k = from; k < power.size(); ++k) level += power[k] / law(k) / of_degrees;
+      for (std::size_t k = from; k < power.size(); ++k)
+        likelihood -= 0.5 * courses * (std::log(level * law(k)) + power[k] / (level * law(k)));
+      likelihoods.push_back(likelihood);
+      levels.push_back(level * law(static_cast<std::size_t>(degree)));
+    }
+    const double best = *std::max_element(likelihoods.begin(), likelihoods.end());
+    std::size_t law = likelihoods.size() - 1;
+    while (likelihoods[law] < best - 2.0) --law;
+    const double own = power[static_cast<std::size_t>(degree)], error = levels[law];
+    const double p =
+        3.0 * loop::f_tail(own / (still_an_error * error), courses, courses * of_degrees);
+    if (surest && surest->p_value <= std::min(1.0, p)) return;
+    const VectorXd form = basis.col(degree);
+    surest = {
+        .degree = degree,
+        .p_value = std::min(1.0, p),
+        .spread = std::sqrt(std::max(0.0, own - error)) * (form.maxCoeff() - form.minCoeff())};
+  };
+  ask(1, 2, 2.5);
+  ask(1, 3, 4.0);
+  ask(2, 3, 2.5);
+  return surest;
+}
+
+TEST(OwnTrend, IsTheSurestOfItsThreeQuestions) {
+  std::mt19937_64 random(16);
+  int of_degree[3] = {}, doubtful = 0;
+  for (int i = 0; i < 60; ++i) {
+    std::vector<MatrixXd> sets;
+    for (int set = 0; set < 1 + i % 2; ++set) {
+      const Index courses = 2 + (i + 5 * set) % 7 + (i % 9 == 0 ? 30 : 0);
+      MatrixXd& values = sets.emplace_back(
+          errors(random, 16 + 7 * (i % 11), courses, 0.3 * (i % 3), i % 4 == 0 ? 0.3 : 0.0));
+      if (i % 5 > 0) add_own(random, values, 1 + i / 5 % 2, 0.5 * (i % 5));
+      if (i % 5 == 4) add_own(random, values, 2 - i / 5 % 2, 1.0);
+    }
+    if (sets[0].cols() < 3 && (sets.size() < 2 || sets[1].cols() < 3)) continue;
+    const auto told = loop::own_trend(sets), known = trend_by_hand(sets);
+    ASSERT_TRUE(told) << i;
+    EXPECT_EQ(told->degree, known->degree) << i;
+    EXPECT_NEAR(told->p_value, known->p_value, 1e-7 * known->p_value) << i;
+    EXPECT_NEAR(told->spread, known->spread, 1e-7) << i;
+    ++of_degree[told->degree];
+    doubtful += told->p_value == 1.0 ? 1 : 0;
+  }
+  EXPECT_GT(std::min(of_degree[1], of_degree[2]), 5);
+  EXPECT_GT(doubtful, 3);
+}
+
+// Where neither can be chance, the simpler one is told.
+TEST(OwnTrend, OfALineAndABowBeyondDoubtTheLineIsTold) {
+  std::mt19937_64 random(17);
+  MatrixXd values = errors(random, 200, 40, 0.0, 0.0) * 1e-9;
+  add_own(random, values, 2, 9.0);
+  add_own(random, values, 1, 3.0);
+  const auto trend = loop::own_trend({values});
+  ASSERT_TRUE(trend);
+  EXPECT_EQ(trend->p_value, 0.0);
+  EXPECT_EQ(trend->degree, 1);
 }
 
 TEST(OwnTrend, FewCoursesOrPlacesTellNothing) {

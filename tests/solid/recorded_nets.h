@@ -149,6 +149,9 @@ inline constexpr const char* kRecordedNets = R"(
 583: 16 columns, 4 rows, 0 facets, 0 inside, 22 rising, lean 0.00000, at 63.738963 3.585362 0.100933, 17.4052 um
 595: 42 columns, 5 rows, 0 facets, 0 inside, 41 rising, lean 0.00000, at 42.211489 1.966006 0.126320, 0.8415 um
 607: 26 columns, 3 rows, 0 facets, 0 inside, 44 rising, lean 0.00000, at 25.232580 3.238224 0.086436, 1.2750 um
+1018: 349 columns, 7 rows, 976 facets, 0 inside, 0 rising, lean 976.00000, at 14.880353 3.185527 -0.000085, 0.8521 um
+1070: 23 columns, 2 rows, 96 facets, 26 inside, 0 rising, lean 79.33333, at 50.821395 6.464927 0.002671, 35.7169 um
+1490: 29 columns, 4 rows, 158 facets, 14 inside, 0 rising, lean 58.00000, at 45.736161 13.253916 0.000929, 15.9501 um
 )";
 
 /// The same of chosen ones.
