@@ -466,7 +466,7 @@ TEST(SignWords, AreSaidOfEveryFormOfOneCoefficient) {
         "unnamed_drift_aside", "unnamed_broken_wave", "unnamed_stairs", "unnamed_wave_of_some",
         // (play is said by its axis; the words of those of some teeth are those of all)
         "unnamed_wobble", "unnamed_reversal", "unnamed_kink_of_teeth", "unnamed_bend_of_teeth",
-        "unnamed_waviness_of_teeth"};
+        "unnamed_waviness_of_teeth", "unnamed_dish_of_teeth"};
     EXPECT_TRUE(known.contains(family.id) || kOther.contains(family.id)) << family.id;
   }
   for (const loop::EffectFamily& named : loop::effect_library()) {

@@ -16,7 +16,7 @@ namespace {
 loop::InspectionData clamped_twice(const MadeGear& gear, const Process& index,
                                    const Process& traces) {
   InspectionOptions options;
-  options.points = 24;
+  options.points = 48;
   options.noise_um = 0.3;
   options.profile = options.helix = false;
   loop::InspectionData data = inspection_of(gear, {index}, options);
