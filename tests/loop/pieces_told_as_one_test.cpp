@@ -146,6 +146,32 @@ TEST(PiecesToldAsOne, ADriftBeginsWithNothingUntilALevelSaysOtherwise) {
   }
 }
 
+// What leads drift by is opposite on the flanks; a taper is alike on them, and no mean of that.
+TEST(PiecesToldAsOne, ADriftOfLeadsLeavesATaperAsItIs) {
+  const auto made = [](const MadeGear& g, const FlankSpot& s, auto&) {
+    return (s.side * levelled_um(g, s.tooth) + 6.0) * s.v;
+  };
+  const auto drift = [](double zero) {
+    return piece("unnamed_levelling", {6.0, 0.0, 1.0, 1.0, 0.0, 5.0, zero});
+  };
+  const auto wave = [](double order) { return term(0.0, 1.0, order, 1.0); };
+  Pieces whole(spur(20), grown(made),
+               {piece("taper", {}), drift(loop::gear_effects::kFirstOfDrift)});
+  EXPECT_FALSE(tell_as_drift(*whole)) << whole.text();
+  EXPECT_EQ(whole.told().back().shape[6], loop::gear_effects::kFirstOfDrift) << whole.text();
+  // one that grows to nothing at its last tooth
+  const auto ends = [](const MadeGear& g, const FlankSpot& s, auto&) {
+    const double left = g.teeth - 1.0 - gone(g, s.tooth, 10);
+    return (25.0 * s.side * (std::exp(-left / 8.0) - 1.0) + 6.0) * s.v;
+  };
+  Pieces waves(spur(16), grown(ends),
+               {wave(0.0), wave(1.0), piece("taper", {}), wave(2.0), wave(3.0)});
+  tell_as_one_form(*waves);
+  EXPECT_EQ(waves.told().size(), 2U) << waves.text();
+  EXPECT_TRUE(waves.has("taper")) << waves.text();
+  EXPECT_TRUE(waves.has("unnamed_levelling")) << waves.text();
+}
+
 TEST(PiecesToldAsOne, EqualAndOppositeCoursesThatAreOneOfOneFlank) {
   const auto made = [](auto&, const FlankSpot& s, auto&) {
     return s.side < 0 ? 14.0 * std::exp(-(1.0 - s.v) / 0.35) : 0.0;

@@ -34,21 +34,31 @@ bool is_wave_of(const Effect& effect, const CourseOverFlanks& course) {
          !needs.along_profile && !needs.along_face;
 }
 
-/// The same on every tooth and of that course: the mean of what drifts to nothing.
+/// The same on every tooth and of that course, alike on the flanks or opposite on them: the mean of
+/// what so drifts to nothing. What one flank has is a part of either.
 bool is_level_of(const FlankGeometry& geometry, const Effect& effect,
-                 const CourseOverFlanks& course) {
+                 const CourseOverFlanks& course, double opposite) {
   constexpr double kAlike = 0.99;
   if (effect.columns() != 1 || effect.order() != 0.0 || effect.family->local ||
       runs_of(geometry, effect, Flanks::kOfEither) == Runs::kOtherwise)
     return false;
-  const Eigen::VectorXd own = over_a_tooth(geometry, effect).col(0);
-  for (const double opposite : {0.0, 1.0}) {
-    const Effect form{
-        find_family("unnamed"), effect.flank, {course.profile, course.face, 0.0, opposite}};
-    const Eigen::VectorXd level = over_a_tooth(geometry, form).col(0);
-    if (std::abs(own.dot(level)) > kAlike * own.norm() * level.norm()) return true;
-  }
-  return false;
+  const Effect form{
+      find_family("unnamed"), effect.flank, {course.profile, course.face, 0.0, opposite}};
+  const Eigen::VectorXd own = over_a_tooth(geometry, effect).col(0),
+                        level = over_a_tooth(geometry, form).col(0);
+  return std::abs(own.dot(level)) > kAlike * own.norm() * level.norm();
+}
+
+/// Of these the levels that a drift on such flanks has; one flank's may be a part of any.
+std::vector<std::size_t> levels_of(const PartModel& model, const std::vector<std::size_t>& levels,
+                                   const CourseOverFlanks& course, FlankChoice flank,
+                                   double opposite) {
+  std::vector<std::size_t> own;
+  for (const std::size_t e : levels)
+    if (flank != FlankChoice::kBoth ||
+        is_level_of(model.geometry, model.effects[e], course, opposite))
+      own.push_back(e);
+  return own;
 }
 
 /// Some neighbours that stand out or aside are the beginning of what levels off.
@@ -68,6 +78,9 @@ bool is_ramp_of(const Effect& effect, const CourseOverFlanks& course) {
           effect.family == find_family("unnamed_levelling")) &&
          has_course(effect, 1, course);
 }
+
+/// Where the shape of a ramp or a levelling says whether it is opposite on the flanks.
+constexpr std::size_t kOppositeOfDrift = 3;
 
 /// How a drift goes on: evenly, or most of it within some teeth of its beginning or end.
 struct Pace {
@@ -171,13 +184,16 @@ std::vector<std::vector<Effect>> drifts_in_place_of(PartModel& model,
 /// says both, else about its mean, so that the level is the mean of all teeth. True where that
 /// changed it.
 bool tell_mean_and_drift(PartModel& model, const CourseOverFlanks& course,
-                         const std::vector<std::size_t>& levels) {
+                         const std::vector<std::size_t>& all_levels) {
   constexpr double kNothing = 9.0;  // chi-square
   constexpr std::size_t kZero = 6;
   for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
     if (model.effects[e].family != find_family("unnamed_levelling") ||
         !has_course(model.effects[e], 1, course))
       continue;
+    const std::vector<std::size_t> levels =
+        levels_of(model, all_levels, course, model.effects[e].flank,
+                  model.effects[e].shape[kOppositeOfDrift]);
     for (const std::size_t level : levels) {
       if (level < first_told_here(model)) continue;
       std::vector<Effect> others, forms;
@@ -274,7 +290,8 @@ bool tell_as_drift(PartModel& model) {
         drifts = drifts || ramp;
       } else if (model.effects[e].family->local && model.effects[e].columns() == 1) {
         teeth.push_back(e);
-      } else if (is_level_of(model.geometry, model.effects[e], course)) {
+      } else if (is_level_of(model.geometry, model.effects[e], course, 0.0) ||
+                 is_level_of(model.geometry, model.effects[e], course, 1.0)) {
         levels.push_back(e);
       } else if (moves_the_teeth(model.effects[e])) {
         moved.push_back(e);
@@ -297,13 +314,19 @@ bool tell_as_drift(PartModel& model) {
       std::vector<std::size_t> nothing;
       for (const auto* more : {&moved, &teeth, &nothing}) {
         if ((more->empty() && more != &nothing) || (more == &moved && !is_bent)) continue;
-        std::vector<std::size_t> these = waves;
-        these.insert(these.end(), more->begin(), more->end());
-        if (has_mean) these.insert(these.end(), levels.begin(), levels.end());
-        std::sort(these.begin(), these.end());
-        for (const std::vector<Effect>& drifts_of : forms)
-          if (!drifts_of.empty() && put_one_form_for(model, these, drifts_of, {}, is_bent ? 1 : 0))
-            return true;
+        for (const std::vector<Effect>& drifts_of : forms) {
+          if (drifts_of.empty()) continue;
+          std::vector<std::size_t> these = waves;
+          these.insert(these.end(), more->begin(), more->end());
+          if (has_mean) {
+            const std::vector<std::size_t> own =
+                levels_of(model, levels, course, drifts_of.front().flank,
+                          drifts_of.front().shape[kOppositeOfDrift]);
+            these.insert(these.end(), own.begin(), own.end());
+          }
+          std::sort(these.begin(), these.end());
+          if (put_one_form_for(model, these, drifts_of, {}, is_bent ? 1 : 0)) return true;
+        }
       }
     }
   }
