@@ -282,7 +282,9 @@ TEST_P(FormsOutOfPieces, AreToldAsTheyWereMade) {
   unsigned number = 0;
   for (const Forms& forms : draw.kinds(geometry))
     for (int trial = 0; trial < (draw.whole ? 1 : 3); ++trial, ++number) {
-      if (!record) ASSERT_LT(number, draw.told.size());
+      if (!record) {
+        ASSERT_LT(number, draw.told.size());
+      }
       if (!record && draw.told[number] != '1') continue;
       const std::clock_t start = std::clock();
       const std::string otherwise =
@@ -290,7 +292,9 @@ TEST_P(FormsOutOfPieces, AreToldAsTheyWereMade) {
       const double long_s = draw.whole ? 0.2 : 0.12;
       const bool is_long = static_cast<double>(std::clock() - start) > long_s * CLOCKS_PER_SEC;
       told += !otherwise.empty() ? '.' : is_long ? 's' : '1';
-      if (!record) ASSERT_EQ(otherwise, "");
+      if (!record) {
+        ASSERT_EQ(otherwise, "");
+      }
     }
   if (record) std::cout << draw.name << " \"" << told << "\"\n";
   EXPECT_TRUE(record || number == draw.told.size());
@@ -315,7 +319,7 @@ INSTANTIATE_TEST_SUITE_P(
         Draw{"chosen_slopes", false, slopes_around, "11s.11...1...1..", true},
         Draw{"chosen_leads", false, leads_around, "11s.11..1...1ss.", true},
         Draw{"chosen_names", false, names_of_every_kind, "1.11111111111s1.111..111", true}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& given) { return std::string(given.param.name); });
 INSTANTIATE_TEST_SUITE_P(
     Traces, FormsOutOfPieces,
     ::testing::Values(
@@ -335,7 +339,7 @@ INSTANTIATE_TEST_SUITE_P(
         Draw{"chosen_slopes", true, slopes_around, "s1.s11s.11..11s.", true},
         Draw{"chosen_leads", true, leads_around, ".1.111s.1sss11..", true},
         Draw{"chosen_names", true, names_of_every_kind, "1.111.1.1111111.111..s11", true}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& given) { return std::string(given.param.name); });
 
 }  // namespace
 }  // namespace trueflank::test
