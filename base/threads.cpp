@@ -23,9 +23,10 @@ class KeptThreads {
   static KeptThreads& ours() { return *slot(); }
 
   void add(Help::Task& task) {
+    const std::size_t asked = task.wanted;  // (others take from it once it is in the list)
     std::unique_lock lock(mutex_);
     tasks_.push_back(&task);
-    wanted_ += task.wanted;
+    wanted_ += asked;
     const std::size_t most = 2 * processors();
     while (waiting_ + begun_ < wanted_ && threads_ < most) {
       ++threads_, ++begun_;
@@ -37,7 +38,7 @@ class KeptThreads {
       }
     }
     lock.unlock();
-    for (std::size_t i = 0; i < task.wanted; ++i) asked_.notify_one();
+    for (std::size_t i = 0; i < asked; ++i) asked_.notify_one();
   }
 
   void withdraw(Help::Task& task) {

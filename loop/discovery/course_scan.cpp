@@ -469,7 +469,7 @@ class CourseScan {
     constexpr double kTailOfSlow = 12.0, kTailOfQuick = 50.0, kSlow = 0.4;
     std::vector<MatrixXd> clipped, whole;
     std::vector<Roughness> roughness_of_whole;
-    std::vector<bool> quick;
+    std::vector<double> alike;  // neighbours of each set
     for (std::size_t s = 0; s < sets_.size(); ++s) {
       // (a deep spot on one of few courses would stand in the plain mean)
       MatrixXd apart = clipped_[s];
@@ -480,7 +480,7 @@ class CourseScan {
       }
       clipped.push_back(std::move(apart));
       whole.push_back(apart_from_usual(sets_[s]));
-      quick.push_back(likeness_of_neighbours(whole.back()) < kSlow);
+      alike.push_back(likeness_of_neighbours(whole.back()));
       roughness_of_whole.push_back(roughness_of(whole.back()));
     }
     CourseFinding best{CourseKind::kSpot};
@@ -522,7 +522,8 @@ class CourseScan {
               normal,
               least_chance(most / spread, louds_[static_cast<std::size_t>(s)].degrees, normal));
           const auto set = static_cast<std::size_t>(s);
-          const bool as_usual = quick[set] && louds_[set].by[column] == 1.0 && !has_own_waves(s);
+          const bool as_usual =
+              alike[set] < kSlow && louds_[set].by[column] == 1.0 && !has_own_waves(s);
           if (!clip)
             p = std::max(p,
                          student_two_sided(most / spread, as_usual ? kTailOfQuick : kTailOfSlow));
@@ -540,7 +541,7 @@ class CourseScan {
     keep(best, tests);
     for (std::size_t s = 0; s < whole.size(); ++s)
       whole[s].array().rowwise() /= louds_[s].by.transpose().array();
-    if (const auto nick = nick_of(whole)) keep(*nick, 1.0);
+    if (const auto nick = nick_of(whole, alike)) keep(*nick, 1.0);
   }
 
   const std::vector<MatrixXd>& sets_;

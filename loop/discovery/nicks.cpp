@@ -11,27 +11,11 @@
 
 namespace trueflank::loop {
 
-namespace {
-
-/// The chance of three values is that of one to this power: two of them add what neighbours do not
-/// share.
-double power_of_three(const Eigen::MatrixXd& set) {
-  constexpr double kMostAdded = 0.8;
-  const Eigen::Index m = set.rows();
-  std::vector<double> steps, values(set.data(), set.data() + set.size());
-  for (Eigen::Index c = 0; c < set.cols(); ++c)
-    for (Eigen::Index i = 1; i < m; ++i) steps.push_back(set(i, c) - set(i - 1, c));
-  const double spread = robust_sigma(std::move(values)), step = robust_sigma(std::move(steps));
-  if (!(spread > 0.0)) return 1.0;
-  const double alike = std::clamp(1.0 - 0.5 * step * step / (spread * spread), 0.0, 1.0);
-  return 1.0 + kMostAdded * (1.0 - alike * alike);
-}
-
-}  // namespace
-
-std::optional<CourseFinding> nick_of(const std::vector<Eigen::MatrixXd>& apart) {
-  // The tail of one value's chance, in degrees; what is told must be sure.
-  constexpr double kTail = 20.0, kTwice = 2.0, kSure = 0.01;
+std::optional<CourseFinding> nick_of(const std::vector<Eigen::MatrixXd>& apart,
+                                     const std::vector<double>& alike) {
+  // The tail of one value's chance, in degrees; what two more values add at most to the power of it
+  // that is the chance of three; what is told must be sure.
+  constexpr double kTail = 20.0, kMostAdded = 0.8, kTwice = 2.0, kSure = 0.01;
   CourseFinding best{CourseFinding::Kind::kSpot};
   double tests = 0.0;
   for (std::size_t s = 0; s < apart.size(); ++s) {
@@ -43,7 +27,8 @@ std::optional<CourseFinding> nick_of(const std::vector<Eigen::MatrixXd>& apart) 
     if (off.empty()) continue;
     const double spread = robust_sigma(std::move(off));
     if (!(spread > 0.0)) continue;
-    const double power = power_of_three(set);
+    const double shared = std::clamp(alike[s], 0.0, 1.0),
+                 power = 1.0 + kMostAdded * (1.0 - shared * shared);
     const auto places = static_cast<double>(set.rows());
     tests += (places - 2.0) * static_cast<double>(set.cols());
     for (Eigen::Index c = 0; c < set.cols(); ++c)

@@ -107,4 +107,15 @@ template <class T>
   return squares > 0.0 ? fourths * static_cast<double>(values.size()) / (squares * squares) - 3.0 : 0.0;
 }
 
+/// The step in which values were read, the smallest difference between them that is not rounding:
+/// of fine ones next to nothing. Requires: some values.
+[[nodiscard]] inline double step_of_readings(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const double same = 1e-6 * (values.back() - values.front());
+  double step = values.back() - values.front();
+  for (std::size_t k = 1; k < values.size(); ++k)
+    if (values[k] - values[k - 1] > same) step = std::min(step, values[k] - values[k - 1]);
+  return step;
+}
+
 }  // namespace trueflank::loop

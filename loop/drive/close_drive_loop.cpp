@@ -2,6 +2,7 @@
 #include "trueflank/loop/drive/close_drive_loop.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -146,6 +147,17 @@ class DriveReport {
     return noise * (1.25 + 3.0 / std::sqrt(2.0 * std::max(1, rows)));
   }
 
+  /// What readings in steps add to the residual: all of a dwell may be rounded alike. A sensor's
+  /// step shows where it reads the driven side.
+  [[nodiscard]] double rounding_nm() const {
+    std::array<std::vector<double>, 2> driven;  // of the input backward, of the output forward
+    for (const BenchPoint& p : selection_.table().points)
+      driven[p.forward ? 1 : 0].push_back(p.driven_nm);
+    const double ratio = selection_.model().ratio, input = step_of(std::move(driven[0])),
+                 output = step_of(std::move(driven[1]));
+    return std::max(1.0, 1.0 / ratio) * std::hypot(output, ratio * input) / std::sqrt(12.0);
+  }
+
   /// Few set points of many rows each can be turned over in so few ways that no effect is surer
   /// than chance: then readings within a set point, as many of them as do not hang together, say
   /// whether the set points are off the model.
@@ -172,8 +184,10 @@ class DriveReport {
     }
     const double alike = std::max(0.0, beside / within);
     if (!(within > 0.0) || alike > kSlow) return;
-    const double square = within / (rows - visits), together = (1.0 + alike) / (1.0 - alike),
-                 off_square = count.dot(mean.cwiseAbs2()) / visits;
+    const double square = within / (rows - visits), rounding = rounding_nm(),
+                 together = (1.0 + alike) / (1.0 - alike),
+                 off_square =
+                     count.dot((mean.cwiseAbs2().array() - rounding * rounding).matrix()) / visits;
     const double p = f_tail(off_square / (square * together), visits, (rows - visits) / together);
     if (p > kSure) return;
     r.verdict = Verdict::kPartlyExplained;

@@ -11,27 +11,12 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import foreign_locale
+from small_search import NEEDS
 
 PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
 OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"]) / "locale"
 EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples"
 SETTER = sys.argv[1]
-NEEDS = """format = 1
-name = "small"
-[gearbox]
-kind = "3k"
-[ratio]
-min = 96.2
-max = 96.3
-[teeth]
-sun_min = 12
-sun_max = 12
-planet1_min = 39
-planet1_max = 39
-[search]
-results = 1
-objectives = "forward: 1, mass: 0.25"
-"""
 PAIR = """format = 1
 name = "pair"
 [gearbox]

@@ -87,6 +87,18 @@ TEST(CoarseReadings, AreNoOutliers) {
   }
 }
 
+// Of a level and one wild value the step is not known.
+TEST(CoarseReadings, OneWildValueOfNoneOtherIsAnOutlier) {
+  const MadeGear gear = spur(25);
+  InspectionOptions options;
+  options.points = 60;
+  options.common_zero = true;
+  auto data = inspection_of(gear, {}, options);
+  for (auto& row : data.rows) row.deviation_um = 0.0;
+  data.rows[data.rows.size() / 3].deviation_um = 40.0;
+  EXPECT_EQ(close(gear, data).outliers, 1);
+}
+
 // A nick three values wide on one trace: 15 times the noise at its middle.
 TEST(FewValues, AShortNickOfOneTraceIsSeen) {
   int seen = 0;

@@ -13,6 +13,7 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import foreign_locale
+from small_search import NEEDS
 
 PAIR = """format = 1
 name = "p"
@@ -26,22 +27,6 @@ face_width_mm = 8.0
 [wheel]
 teeth = 40
 face_width_mm = 8.0
-"""
-NEEDS = """format = 1
-name = "small"
-[gearbox]
-kind = "3k"
-[ratio]
-min = 96.2
-max = 96.3
-[teeth]
-sun_min = 12
-sun_max = 12
-planet1_min = 39
-planet1_max = 39
-[search]
-results = 1
-objectives = "forward: 1, mass: 0.25"
 """
 INDEX = "# ZERO = Common\nRecord,Tooth,Flank,Diameter_MM,Z_mm,DEVIATION_um\n" + "".join(
     f"INDEX,{tooth},{flank},21.25,4,{1.5 * ((5 * tooth) % 7):.2f}\n" for tooth in range(1, 18) for flank in ("LEFT", "RIGHT"))

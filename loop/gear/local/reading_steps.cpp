@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "trueflank/loop/discovery/order_statistics.h"
+
 namespace trueflank::loop {
 namespace {
 
@@ -17,16 +19,6 @@ bool is_in_trace(const Observation& row) {
 
 std::pair<int, int> kind_and_source(const Observation& row) {
   return {static_cast<int>(row.kind), row.source};
-}
-
-/// The step in which values were read: of fine ones next to nothing.
-double step_of_readings(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const double same = 1e-6 * (values.back() - values.front());
-  double step = values.back() - values.front();
-  for (std::size_t k = 1; k < values.size(); ++k)
-    if (values[k] - values[k - 1] > same) step = std::min(step, values[k] - values[k - 1]);
-  return step;
 }
 
 /// A number of 0 to 1 for each row, as if at random: its number's bits, mixed.

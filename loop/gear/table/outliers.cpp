@@ -157,8 +157,8 @@ Level level_of(const Observations& table, const RowNumbers& patch) {
   return {centre, kSigmaOfMedianSize * median(values)};
 }
 
-/// The step of an instrument that reads coarsely: the smallest difference between values of traces,
-/// by kind and source as patches have them. Where values are told finely it is next to nothing.
+/// The step of an instrument that reads coarsely, by kind and source as patches have them; 0 of
+/// scans, and where a single level and one wild value are all there is.
 std::map<int, double> steps_of_readings(const Observations& table,
                                         const std::vector<const PatchRows::value_type*>& patches) {
   std::map<int, std::vector<double>> values;
@@ -169,11 +169,9 @@ std::map<int, double> steps_of_readings(const Observations& table,
         values[patch->first[0]].push_back(table.rows[i].deviation_um);
   std::map<int, double> steps;
   for (auto& [kind, list] : values) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-    double least = list.size() > 1 ? list.back() - list.front() : 0.0;
-    for (std::size_t i = 1; i < list.size(); ++i) least = std::min(least, list[i] - list[i - 1]);
-    steps[kind] = least;
+    const auto [least, most] = std::minmax_element(list.begin(), list.end());
+    const double range = *most - *least, step = step_of_readings(std::move(list));
+    steps[kind] = 2.0 * step <= range ? step : 0.0;
   }
   return steps;
 }
