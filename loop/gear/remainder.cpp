@@ -56,6 +56,7 @@ class RemainderSearch {
     for (auto& [key, courses] : values_.courses) look_along(key, courses);
     if (which_ == RemainderOf::kAll) look_for_spots(spots.get());
     look_across(spectrum.get());
+    look_for_marching_waves();
     tell_rough_places();
     const auto looks = static_cast<double>(looks_);
     for (RemainderFinding& finding : found_)
@@ -373,13 +374,28 @@ class RemainderSearch {
     return flank_spectrum(geometry_, table_, row_um_, used_);
   }
 
+  /// Waves over the face, on traces, that run on from tooth to tooth. (Those over the profile are
+  /// ghost orders.)
+  void look_for_marching_waves() {
+    // (so much surer than others are asked to be that it is no look of theirs)
+    if (!table_.points_mm.empty()) return;
+    for (const FlankWaves& wave : waves_of_leads(geometry_, table_, row_um_, used_)) {
+      EffectShape shape{0.0, wave.waves_face, wave.order};
+      const bool whole = std::rint(wave.order) == wave.order;
+      if (!whole) shape.push_back(1.0);  // begins at the first tooth
+      add_form(whole ? "unnamed_marks" : "unnamed_walking_waves",
+               flank_choice(geometry_, wave.side > 0 ? 1 : 0), std::move(shape), wave.p_value,
+               wave.amplitude_um, false);
+    }
+  }
+
   /// Waves across the flanks of scans, and flanks that stand each by itself.
   void look_across(const FlankSpectrum& spectrum) {
     if (table_.points_mm.empty()) return;
     looks_ += 3;
     if (const auto& wave = spectrum.waves)
       add_form("unnamed_marks", flank_choice(geometry_, wave->side > 0 ? 1 : 0),
-               {wave->waves_profile, wave->waves_face, double(wave->order)}, wave->p_value,
+               {wave->waves_profile, wave->waves_face, wave->order}, wave->p_value,
                wave->amplitude_um, false);
     if (const auto& apart = spectrum.apart)
       add_text(apart->p_value,

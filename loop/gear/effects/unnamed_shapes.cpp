@@ -425,6 +425,16 @@ EffectFamily unnamed_waviness() {
   return f;
 }
 
+namespace {
+
+/// Of waves along the face alone: fewer are forms that teeth have, and told as those.
+bool is_bow_over_face(const EffectShape& waves) {
+  constexpr double kFewest = 2.0;
+  return waves[0] == 0.0 && std::abs(waves[1]) < kFewest;
+}
+
+}  // namespace
+
 /// Waves in any direction across the flanks, which run on from tooth to tooth.
 EffectFamily unnamed_marks() {
   EffectFamily f = described("unnamed_marks", {"waves_over_profile", "waves_over_face", "order"});
@@ -438,17 +448,19 @@ EffectFamily unnamed_marks() {
     c[0] = flank ? std::cos(angle) : 0.0;
     c[1] = flank ? std::sin(angle) : 0.0;
   };
-  f.needs = [](const EffectShape&) {
-    return NeedsToBeSeen{.along_profile = true, .along_face = true, .crossed = true};
+  f.needs = [](const EffectShape& shape) {
+    const bool profile = shape[0] != 0.0, face = shape[1] != 0.0;
+    return NeedsToBeSeen{.along_profile = profile, .along_face = face, .crossed = profile && face};
   };
   f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
   f.nearby = [](const FlankGeometry&, const EffectShape& shape) {
     std::vector<EffectShape> shapes;
     for (const double off : {0.1, 0.03, 0.01})
       for (const double sign : {-1.0, 1.0}) {
-        shapes.push_back({shape[0] + sign * off, shape[1], shape[2]});
-        shapes.push_back({shape[0], shape[1] + sign * off, shape[2]});
+        if (shape[0] != 0.0) shapes.push_back({shape[0] + sign * off, shape[1], shape[2]});
+        if (shape[1] != 0.0) shapes.push_back({shape[0], shape[1] + sign * off, shape[2]});
       }
+    std::erase_if(shapes, is_bow_over_face);
     return shapes;
   };
   f.term_keys = {number("waves_over_profile"), number("waves_over_face"), number("order")};
@@ -558,6 +570,7 @@ EffectFamily unnamed_walking_waves() {
       shapes.push_back(shape);
       shapes.back()[3] = (static_cast<int>(shape[3]) - 1 + off + z) % z + 1;
     }
+    std::erase_if(shapes, is_bow_over_face);
     return shapes;
   };
   f.term_keys = {

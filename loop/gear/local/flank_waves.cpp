@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <span>
 
 #include "trueflank/base/threads.h"
@@ -12,79 +11,23 @@
 #include "trueflank/base/widest_registers.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/order_statistics.h"
+#include "trueflank/loop/gear/local/wave_products.h"
 #include "trueflank/loop/gear/table/thinned_rows.h"
 
 namespace trueflank::loop {
+namespace flank_waves {
 namespace {
 
-using Complex = std::complex<double>;
-
-/// Waves asked about, in halves: up to six over the profile, sixteen over the face.
-constexpr int kProfile = 12, kFace = 32, kColumns = 2 * kFace + 1;
 constexpr std::size_t kMostOfSpectrum = 40000;
 constexpr int kFewestTeeth = 8;
 /// A flank with fewer values tells nothing of waves in it.
 constexpr int kFewestValues = 12;
 
-/// Without the special cases of infinite numbers, which take most of the time of `*`.
-Complex product(const Complex& a, const Complex& b) {
-  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
-
-struct Value {
-  int tooth = 0, side = 0;
-  double u = 0.0, v = 0.0, um = 0.0;  ///< u, v: 0 ... 1
-};
-
-/// Values that are added at once.
-constexpr std::size_t kWavesAtOnce = 4;
-
-/// Sums over values of the four products of cosines and sines over the profile and over the face.
-class WaveProducts {
- public:
-  /// At most kWavesAtOnce of them.
-  void add(std::span<const Value* const> values) {
-    std::array<std::array<double, kAlong>, kWavesAtOnce> along{};
-    std::array<std::array<double, kRow>, kWavesAtOnce> across{};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const Complex step_u = std::polar(1.0, kPi * values[i]->u),
-                    step_v = std::polar(1.0, kPi * values[i]->v);
-      Complex of_v = 1.0;
-      for (std::size_t b = 0; b < kHalf; ++b, of_v = product(of_v, step_v)) {
-        across[i][b] = of_v.real();
-        across[i][kHalf + b] = of_v.imag();
-      }
-      Complex of_u = values[i]->um;
-      for (std::size_t a = 0; a < kAlong; a += 2, of_u = product(of_u, step_u)) {
-        along[i][a] = of_u.real();
-        along[i][a + 1] = of_u.imag();
-      }
-    }
-    in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
-      for (std::size_t a = 0; a < kAlong; ++a)
-        for (std::size_t b = 0; b < kRow; ++b)
-          sums_[a][b] += along[0][a] * across[0][b] + along[1][a] * across[1][b] +
-                         along[2][a] * across[2][b] + along[3][a] * across[3][b];
-    });
-  }
-  /// Sum of um exp(-i pi (a u + b v)), or with `sign` -1 of the wave that falls.
-  [[nodiscard]] Complex sum(int a, int b, double sign) const {
-    const auto i = 2 * static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
-    return {sums_[i][j] - sign * sums_[i + 1][kHalf + j],
-            -sums_[i + 1][j] - sign * sums_[i][kHalf + j]};
-  }
-
- private:
-  static constexpr std::size_t kAlong = 2 * (kProfile + 1), kHalf = kFace + 1, kRow = 2 * kHalf + 2;
-  static_assert(kWavesAtOnce == 4 && kRow % 4 == 0);
-  std::array<std::array<double, kRow>, kAlong> sums_{};
-};
-
 class Spectrum {
  public:
   Spectrum(const FlankGeometry& geometry, const Observations& table,
-           const std::vector<float>& row_um, const std::vector<bool>& used)
-      : teeth_(geometry.teeth()), flanks_(2 * static_cast<std::size_t>(teeth_)) {
+           const std::vector<float>& row_um, const std::vector<bool>& used, ObservationKind kind)
+      : teeth_(geometry.teeth()), kind_(kind), flanks_(2 * static_cast<std::size_t>(teeth_)) {
     gather(geometry, table, row_um, used);
     for (std::size_t f = 0; f < flanks_.size(); ++f)
       if (flanks_[f].count >= kFewestValues) ++known_;
@@ -92,11 +35,36 @@ class Spectrum {
 
   FlankSpectrum run() {
     if (known_ < 2 * kFewestTeeth) return {};
-    most_profile_ = most_waves(&Value::u, kProfile);
-    most_face_ = most_waves(&Value::v, kFace);
-    take_means_off();
-    transform();
+    look_at_all();
     return {largest_wave(), apart(), forms_apart()};
+  }
+
+  /// Over the face alone, at most one of either side. Where few teeth have a trace one order looks
+  /// like others.
+  std::vector<FlankWaves> waves_of_leads() {
+    constexpr double kMostTeeth = 0.7, kClearly = 0.1, kLevel = 1e-4;
+    // Forms that hang on the tooth rise towards long waves, and are told as such.
+    constexpr int kFewestOfLeads = 5;
+    if (known_ < std::max(2.0 * kFewestTeeth, kMostTeeth * 2.0 * teeth_)) return {};
+    orders_ = 2 * teeth_;
+    fewest_ = kFewestOfLeads;
+    look_at_all();
+    std::vector<FlankWaves> found;
+    const std::vector<Judged> waves = judged_waves();
+    for (const int side : {1, -1}) {
+      // A large wave shows at other lengths, too, and may stand out more there.
+      const Judged* best = nullptr;
+      for (const Judged& one : waves)
+        if (one.wave.side == side && one.wave.p_value <= kLevel &&
+            (best == nullptr || one.power > best->power))
+          best = &one;
+      if (best == nullptr) continue;
+      FlankWaves wave = best->wave;
+      sharpen(wave);
+      if (0.5 * wave.amplitude_um * wave.amplitude_um >= kClearly * mean_square(side))
+        found.push_back(wave);
+    }
+    return found;
   }
 
  private:
@@ -106,6 +74,12 @@ class Spectrum {
     std::vector<double> real, imaginary;  ///< sums over kProfile + 1 by kColumns waves
     [[nodiscard]] Complex sum(int a, int b) const { return {real[at(a, b)], imaginary[at(a, b)]}; }
   };
+  void look_at_all() {
+    most_profile_ = kind_ == ObservationKind::kHelix ? 0 : most_waves(&Value::u, kProfile);
+    most_face_ = most_waves(&Value::v, kFace);
+    take_means_off();
+    transform();
+  }
   static std::size_t at(int a, int b) { return static_cast<std::size_t>(a * kColumns + b + kFace); }
   Flank& flank_of(const Value& value) {
     return flanks_[static_cast<std::size_t>(2 * (value.tooth - 1) + value.side)];
@@ -115,12 +89,12 @@ class Spectrum {
               const std::vector<float>& row_um, const std::vector<bool>& used) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < used.size(); ++i)
-      count += used[i] && table.rows[i].kind == ObservationKind::kScanFlank ? 1 : 0;
+      count += used[i] && table.rows[i].kind == kind_ ? 1 : 0;
     if (count == 0) return;
     const ThinnedRows some(count, kMostOfSpectrum);
     share_ = std::min(1.0, static_cast<double>(kMostOfSpectrum) / static_cast<double>(count));
     for (std::size_t i = 0; i < used.size(); ++i) {
-      if (!some.has(i) || !used[i] || table.rows[i].kind != ObservationKind::kScanFlank) continue;
+      if (!some.has(i) || !used[i] || table.rows[i].kind != kind_) continue;
       const Place& place = table.place(table.rows[i]);
       values_.push_back({place.tooth, place.side > 0 ? 1 : 0,
                          0.5 * (geometry.profile_coordinate(place.roll_mm) + 1.0),
@@ -222,7 +196,7 @@ class Spectrum {
   /// Powers of one order at one wavelength over the profile and all over the face, on one side.
   OfColumns powers(int a, int n, int side, double count) const {
     OfColumns real{}, imaginary{};
-    const Complex step = std::polar(1.0, -kTwoPi * n / teeth_);
+    const Complex step = std::polar(1.0, -kTwoPi * n / orders_);
     Complex turn = 1.0;
     for (int k = 0; k < teeth_; ++k, turn = product(turn, step)) {
       const Flank& flank = flanks_[static_cast<std::size_t>(2 * k + side)];
@@ -242,8 +216,8 @@ class Spectrum {
 
   /// The powers of all orders at one pair of wavelengths on one side, in short.
   struct Orders {
-    int a = 0, b = 0, order = 0;
-    double median = 0.0, largest = 0.0;
+    int a = 0, b = 0;
+    double order = 0.0, median = 0.0, largest = 0.0;
   };
 
   /// At one wavelength over the profile and all over the face that are asked about.
@@ -251,11 +225,11 @@ class Spectrum {
     double count = 0.0;
     for (int k = 0; k < teeth_; ++k) count += flanks_[static_cast<std::size_t>(2 * k + side)].count;
     std::vector<OfColumns> of_order;
-    for (int n = 0; n < teeth_; ++n) of_order.push_back(powers(a, n, side, count));
+    for (int n = 0; n < orders_; ++n) of_order.push_back(powers(a, n, side, count));
     std::vector<Orders> all;
     std::vector<double> power(of_order.size());
-    for (int b = a == 0 ? 4 : -most_face_; b <= most_face_; ++b) {
-      if (a + std::abs(b) < 4) continue;
+    for (int b = a == 0 ? fewest_ : -most_face_; b <= most_face_; ++b) {
+      if (a + std::abs(b) < fewest_) continue;
       for (std::size_t n = 0; n < power.size(); ++n)
         power[n] = of_order[n][static_cast<std::size_t>(b + kFace)];
       all.push_back(in_short(a, b, power));
@@ -265,18 +239,26 @@ class Spectrum {
 
   Orders in_short(int a, int b, std::vector<double>& power) const {
     Orders found{a, b};
-    for (int n = 0; n < teeth_; ++n) {
+    for (int n = 0; n < orders_; ++n) {
       // The same on every tooth along one direction is looked for elsewhere.
       if (n == 0 && (a < 1 || std::abs(b) < 1)) continue;
       if (power[static_cast<std::size_t>(n)] <= found.largest) continue;
       found.largest = power[static_cast<std::size_t>(n)];
-      found.order = 2 * n > teeth_ ? n - teeth_ : n;
+      found.order = static_cast<double>(2 * n > orders_ ? n - orders_ : n) * teeth_ / orders_;
     }
     found.median = median(power);
     return found;
   }
 
-  std::optional<FlankWaves> largest_wave() const {
+  /// A wave, its amplitude left out, and how it stands out.
+  struct Judged {
+    FlankWaves wave;
+    double ratio = 0.0;  ///< of its power to the level at its wavelengths
+    double power = 0.0;
+  };
+
+  /// The orders that stand out most, at every pair of wavelengths on either side.
+  std::vector<Judged> judged_waves() const {
     // Wavelengths over the profile do not ask each other: the same powers on any number of
     // processors.
     const auto asked = static_cast<std::size_t>(most_profile_ + 1);
@@ -292,25 +274,43 @@ class Spectrum {
         usual[i / asked] += one.median;
       }
     if (of_side[0].empty() || !(usual[0] > 0.0 && usual[1] > 0.0)) return {};
-    double best = 0.0;
-    FlankWaves found;
+    // The level is a median of as many: known as well as a mean of half of them.
+    const double known = teeth_, tested = 2.0 * orders_ * static_cast<double>(of_side[0].size());
+    std::vector<Judged> waves;
     for (std::size_t i = 0; i < of_side[0].size(); ++i) {
       const double level =
           0.5 * (of_side[0][i].median / usual[0] + of_side[1][i].median / usual[1]) / std::log(2.0);
       for (std::size_t side = 0; side < 2 && level > 0.0; ++side) {
         const Orders& one = of_side[side][i];
         const double ratio = one.largest / usual[side] / level;
-        if (ratio <= best) continue;
-        best = ratio;
-        found = {1.0, side == 1 ? 1 : -1, 0.5 * one.a, 0.5 * one.b, one.order, 0.0};
+        const double p_value = std::min(1.0, tested * std::pow(1.0 + ratio / known, -known));
+        waves.push_back({{p_value, side == 1 ? 1 : -1, 0.5 * one.a, 0.5 * one.b, one.order, 0.0},
+                         ratio,
+                         one.largest});
       }
     }
-    // The level is a median of as many: known as well as a mean of half of them.
-    const double known = teeth_, tested = 2.0 * teeth_ * static_cast<double>(of_side[0].size());
-    found.p_value = std::min(1.0, tested * std::pow(1.0 + best / known, -known));
-    if (found.p_value >= 1.0) return {};
+    return waves;
+  }
+
+  std::optional<FlankWaves> largest_wave() const {
+    const std::vector<Judged> waves = judged_waves();
+    const auto best =
+        std::max_element(waves.begin(), waves.end(),
+                         [](const Judged& a, const Judged& b) { return a.ratio < b.ratio; });
+    if (best == waves.end() || best->wave.p_value >= 1.0) return {};
+    FlankWaves found = best->wave;
     sharpen(found);
     return found;
+  }
+
+  [[nodiscard]] double mean_square(int side) const {
+    double square = 0.0, count = 0.0;
+    for (const Value& value : values_)
+      if ((value.side == 1) == (side > 0)) {
+        square += value.um * value.um;
+        count += 1.0;
+      }
+    return square / std::max(1.0, count);
   }
 
   static constexpr int kAround = 2, kSteps = 2 * kAround + 1;
@@ -326,7 +326,7 @@ class Spectrum {
         for (int j = 0; j < kSteps; ++j) {
           const double amplitude =
               amplitudes[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-          if (amplitude <= best) continue;
+          if ((most_profile_ == 0 && i != kAround) || amplitude <= best) continue;
           best = amplitude;
           wave.waves_profile = a + (i - kAround) * step;
           wave.waves_face = b + (j - kAround) * step;
@@ -343,7 +343,7 @@ class Spectrum {
       if ((value.side == 1) != (wave.side > 0)) continue;
       const double phase = (wave.waves_profile - kAround * step) * value.u +
                            (wave.waves_face - kAround * step) * value.v +
-                           static_cast<double>(wave.order) * (value.tooth - 1) / teeth_;
+                           wave.order * (value.tooth - 1) / teeth_;
       const Complex step_u = std::polar(1.0, -kTwoPi * step * value.u),
                     step_v = std::polar(1.0, -kTwoPi * step * value.v);
       Complex of_row = value.um * std::polar(1.0, -kTwoPi * phase);
@@ -530,18 +530,27 @@ class Spectrum {
   /// A median of exponentials is known as well as a mean of so many of them.
   static constexpr double kToldByWaves = 0.48;
 
-  int teeth_, known_ = 0;
+  int teeth_, orders_ = teeth_, known_ = 0;  ///< orders_: asked about, of teeth_ periods a turn
+  ObservationKind kind_;
   double share_ = 1.0;  ///< of the scan's values that are asked
-  int most_profile_ = kProfile, most_face_ = kFace;
+  int most_profile_ = kProfile, most_face_ = kFace, fewest_ = 4;  ///< halves of a wave
   std::vector<Flank> flanks_;
   std::vector<Value> values_;
 };
 
 }  // namespace
+}  // namespace flank_waves
 
 FlankSpectrum flank_spectrum(const FlankGeometry& geometry, const Observations& table,
                              const std::vector<float>& row_um, const std::vector<bool>& used) {
-  return Spectrum(geometry, table, row_um, used).run();
+  return flank_waves::Spectrum(geometry, table, row_um, used, ObservationKind::kScanFlank).run();
+}
+
+std::vector<FlankWaves> waves_of_leads(const FlankGeometry& geometry, const Observations& table,
+                                       const std::vector<float>& row_um,
+                                       const std::vector<bool>& used) {
+  return flank_waves::Spectrum(geometry, table, row_um, used, ObservationKind::kHelix)
+      .waves_of_leads();
 }
 
 }  // namespace trueflank::loop

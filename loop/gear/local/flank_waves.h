@@ -15,7 +15,7 @@ struct FlankWaves {
   double p_value = 1.0;  ///< corrected for all waves asked about
   int side = 1;          ///< +1: flanks on the counter-clockwise side
   double waves_profile = 0.0, waves_face = 0.0;  ///< over the involute, over the face
-  int order = 0;         ///< by so many periods a turn the phase runs on
+  double order = 0.0;                            ///< by so many periods a turn the phase runs on
   double amplitude_um = 0.0;
 };
 
@@ -47,5 +47,13 @@ struct FlankSpectrum {
 [[nodiscard]] FlankSpectrum flank_spectrum(const FlankGeometry& geometry, const Observations& table,
                                            const std::vector<float>& row_um,
                                            const std::vector<bool>& used);
+
+/// Waves over the face in helix traces whose phase runs on from tooth to tooth, by whole or half
+/// orders: the largest of either side, judged as those of scans are. None where fewer than seven
+/// teeth in ten have a trace, or where it is less than a tenth of the traces' squares.
+[[nodiscard]] std::vector<FlankWaves> waves_of_leads(const FlankGeometry& geometry,
+                                                     const Observations& table,
+                                                     const std::vector<float>& row_um,
+                                                     const std::vector<bool>& used);
 
 }  // namespace trueflank::loop

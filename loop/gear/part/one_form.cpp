@@ -13,6 +13,7 @@
 #include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/drifts.h"
 #include "trueflank/loop/gear/part/fields.h"
+#include "trueflank/loop/gear/part/form_for_a_name.h"
 #include "trueflank/loop/gear/part/forms_around.h"
 #include "trueflank/loop/gear/part/forms_of_runs.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
@@ -573,7 +574,7 @@ void tell_as_one_form(PartModel& model) {
     }
     for (const int face : {0, 1})
       if (tell_as_form_of_other_flanks(model, face)) return true;
-    return tell_as_bow(model);
+    return tell_as_bow(model) || tell_as_form_for_a_name(model);
   };
   constexpr int kMost = 6;
   int taken = 0;

@@ -298,31 +298,39 @@ void tell_waves_of_a_form(PartModel& model) {
 }
 
 bool tell_as_walking_waves(PartModel& model) {
-  constexpr double kAlike = 0.8;                           // waves along the flank
-  constexpr double kBeside = 1.5;                          // periods a turn: the next whole number
+  constexpr double kAlike = 0.8, kFewest = 2.0;            // waves along the flank
+  constexpr double kBeside = 1.5, kWhole = 0.03;           // periods a turn: the next whole number
   constexpr int kFewestTeeth = 8, kSeams = 16, kMore = 3;  // kMore: values
   const int z = model.geometry.teeth();
   if (z < kFewestTeeth) return false;
-  for (const int side : {1, -1}) {
-    const FlankChoice flank = flank_choice(model.geometry, side > 0 ? 1 : 0);
+  const EffectFamily* walking = find_family("unnamed_walking_waves");
+  for (const FlankChoice flank : {FlankChoice::kLeft, FlankChoice::kRight, FlankChoice::kBoth}) {
+    // (what is the same on both flanks of a tooth is told by either)
+    const int side = flank == flank_choice(model.geometry, 0) ? -1 : 1;
     std::vector<WaveAcross> waves;
     for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
       const Effect& effect = model.effects[e];
       if (effect.flank != flank || effect.columns() != 2 || effect.family->local ||
           !(effect.family->tells_order_along_profile ||
-            effect.family == find_family("unnamed_marks") ||
+            effect.family == find_family("unnamed_marks") || effect.family == walking ||
             effect.family == find_family("unnamed_waviness")))
         continue;
       waves.push_back(wave_across(model.geometry, effect, side));
+      if (effect.family == walking)
+        waves.back().order = effect.shape[2];  // (across its first tooth, too)
       waves.back().effect = e;
       waves.back().size_um = fit_of(model, model.effects)->effect_size_um(static_cast<int>(e));
     }
-    if (waves.size() < 2) continue;
+    if (waves.empty()) continue;
     const WaveAcross most = *std::max_element(
         waves.begin(), waves.end(),
         [](const WaveAcross& a, const WaveAcross& b) { return a.size_um < b.size_um; });
+    // Over less than two waves of the face they are forms that teeth have.
+    if (most.profile == 0.0 && std::abs(most.face) < kFewest) continue;
     std::vector<std::size_t> these;
-    bool beside = false;
+    // (one that runs on from tooth to tooth may do so by no whole number itself)
+    bool beside = model.effects[most.effect].family == find_family("unnamed_marks") &&
+                  model.effects[most.effect].shape[2] != 0.0;
     for (const WaveAcross& own : waves)
       for (const WaveAcross& wave : {own, own.reversed()}) {
         if (std::abs(wave.profile - most.profile) > kAlike ||
@@ -336,14 +344,18 @@ bool tell_as_walking_waves(PartModel& model) {
     these.erase(std::unique(these.begin(), these.end()), these.end());
     std::vector<Effect> forms;
     const double seam = std::max(1.0, static_cast<double>(z) / kSeams);
-    for (const double off : {-0.8, -0.6, -0.4, -0.2, 0.2, 0.4, 0.6, 0.8})
-      for (const double profile : {-0.15, 0.0, 0.15})
+    const std::vector<double> profiles =
+        most.profile == 0.0 ? std::vector{0.0}
+                            : std::vector{most.profile - 0.15, most.profile, most.profile + 0.15};
+    for (int tenths = -8; tenths <= 8; ++tenths)
+      for (const double profile : profiles)
         for (double from = 1.0; from < z + 1.0; from += seam)
-          forms.push_back({find_family("unnamed_walking_waves"),
-                           flank,
-                           {most.profile == 0.0 ? 0.0 : most.profile + profile, most.face,
-                            most.order + off, std::floor(from)}});
-    if (put_one_form_for(model, these, forms, {}, kMore)) return true;
+          forms.push_back(
+              {walking, flank, {profile, most.face, most.order + 0.1 * tenths, std::floor(from)}});
+    const std::vector<Effect> with = one_form_for(model, these, forms, {}, kMore);
+    if (with.empty() || std::abs(std::remainder(with.back().shape[2], 1.0)) < kWhole) continue;
+    put_in_place_of(model, these, with);
+    return true;
   }
   return false;
 }

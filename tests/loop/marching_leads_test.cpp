@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "tests/loop/made_gears.h"
+
+// Waves over the face in helix traces whose phase runs on from tooth to tooth.
+namespace trueflank::test {
+namespace {
+
+struct March {
+  int teeth = 0;
+  double waves = 0.0;  // over the face
+  double order = 0.0;  // periods a turn
+  double phase = 0.0, um = 0.0;
+  int side = 0;  // 0: both flanks
+};
+
+double at(const March& march, const FlankSpot& spot) {
+  if (march.side != 0 && spot.side != march.side) return 0.0;
+  return march.um * std::cos(2.0 * M_PI *
+                                 (march.waves * 0.5 * (spot.v + 1.0) +
+                                  march.order * (spot.tooth - 1) / march.teeth) +
+                             march.phase);
+}
+
+March drawn(std::mt19937_64& random, bool whole) {
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  March march;
+  march.teeth = static_cast<int>(between(17.0, 36.0));
+  march.waves = between(2.6, 8.0);
+  march.order = between(0.6, 0.45 * march.teeth);
+  if (whole) march.order = std::round(march.order);
+  if (!whole && std::abs(std::remainder(march.order, 1.0)) < 0.1) march.order += 0.3;
+  if (between(-1.0, 1.0) < 0.0) march.order = -march.order;
+  march.phase = between(0.0, 2.0 * M_PI);
+  march.um = between(3.0, 9.0);
+  march.side = static_cast<int>(between(0.0, 3.0)) - 1;
+  return march;
+}
+
+loop::LoopResult closed(const March& march, bool common_zero, unsigned seed) {
+  const MadeGear gear = spur(march.teeth);
+  InspectionOptions options;
+  options.noise_um = 0.7;
+  options.common_zero = common_zero;
+  options.points = 60;
+  options.seed = seed;
+  return close(
+      gear,
+      inspection_of(gear, {grown([&](auto&, const FlankSpot& s, auto&) { return at(march, s); })},
+                    options));
+}
+
+/// Size, length and the periods a turn of a wave on these flanks.
+void expect_told(const loop::LoopResult& result, const March& march, const std::string& of) {
+  EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << of << list(result);
+  EXPECT_TRUE(tells_of(result, "march from tooth to tooth")) << of << list(result);
+  EXPECT_LE(result.effects.size(), march.side == 0 ? 2U : 1U) << of << list(result);
+  for (const auto& effect : result.effects) {
+    ASSERT_FALSE(effect.terms.empty()) << of << list(result);
+    const auto& term = effect.terms.front();
+    EXPECT_NEAR(term.amplitude(), march.um, 0.4) << of << list(result);
+    ASSERT_GE(term.shape.size(), 3U);
+    EXPECT_NEAR(term.shape[1], std::abs(march.waves), 0.1) << of << list(result);
+    EXPECT_NEAR(std::abs(term.shape[2]), std::abs(march.order), 0.06) << of << list(result);
+  }
+}
+
+TEST(MarchingLeads, WavesOfWholeOrdersAreToldWithLengthAndOrder) {
+  std::mt19937_64 random(41);
+  for (unsigned draw = 0; draw < 5; ++draw) {
+    const March march = drawn(random, true);
+    expect_told(closed(march, draw % 2 == 0, draw), march, "draw " + std::to_string(draw) + ": ");
+  }
+}
+
+// A vibration that keeps no step with the turn; half a period a turn more or less, too.
+TEST(MarchingLeads, WavesOfNoWholeNumberOfPeriodsAreOneForm) {
+  std::mt19937_64 random(42);
+  for (unsigned draw = 0; draw < 6; ++draw) {
+    March march = drawn(random, false);
+    if (draw % 3 == 0) march.order = std::trunc(march.order) + std::copysign(0.5, march.order);
+    const auto result = closed(march, draw % 2 == 0, draw);
+    expect_told(result, march, "draw " + std::to_string(draw) + ": ");
+    EXPECT_TRUE(tells_of(result, "no whole number")) << list(result);
+  }
+}
+
+// Where every second tooth has traces, an order looks like others: none is told.
+TEST(MarchingLeads, OfEverySecondToothNoOrderIsTold) {
+  std::mt19937_64 random(43);
+  March march = drawn(random, true);
+  march.teeth = 24;
+  const MadeGear gear = spur(march.teeth);
+  std::vector<int> teeth;
+  for (int tooth = 1; tooth <= march.teeth; tooth += 2) teeth.push_back(tooth);
+  const auto result = close(
+      gear,
+      inspection_of(gear, {grown([&](auto&, const FlankSpot& s, auto&) { return at(march, s); })},
+                    traced(teeth, 0.7, 1)));
+  EXPECT_NE(result.verdict, loop::Verdict::kNoEffect) << list(result);
+  EXPECT_FALSE(tells_of(result, "march from tooth to tooth")) << list(result);
+}
+
+}  // namespace
+}  // namespace trueflank::test
