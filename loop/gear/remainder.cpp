@@ -341,9 +341,15 @@ class RemainderSearch {
     const double middle = 0.5 * geometry_.face_width_mm();
     EffectShape shape =
         key.face
-            ? EffectShape{double(tooth), 2.0 * geometry_.reference_radius_mm(), at, 0.0, 2.0 * half}
-            : EffectShape{double(tooth), place_mm(false, at), middle,
-                          2.0 * half * gear_effects::along_profile(geometry_, at), 0.0};
+            ? EffectShape{double(tooth),
+                          2.0 * geometry_.reference_radius_mm(),
+                          at,
+                          0.0,
+                          2.0 * half,
+                          0.0}
+            : EffectShape{double(tooth), place_mm(false, at),
+                          middle,        2.0 * half * gear_effects::along_profile(geometry_, at),
+                          0.0,           0.0};
     add_form("unnamed_spot", flank_choice(geometry_, side), std::move(shape), found.p_value,
              found.amount, true, found.square * courses.values_of_place(places));
   }
@@ -354,7 +360,7 @@ class RemainderSearch {
       add_form("unnamed_spot", flank_choice(geometry_, spot.side > 0 ? 1 : 0),
                {double(spot.tooth), place_mm(false, spot.roll_mm), spot.height_mm,
                 2.0 * spot.half_profile_mm * gear_effects::along_profile(geometry_, spot.roll_mm),
-                2.0 * spot.half_face_mm},
+                2.0 * spot.half_face_mm, 0.0},
                spot.p_value, spot.amount_um, true, spot.square);
   }
 

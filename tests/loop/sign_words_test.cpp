@@ -414,7 +414,7 @@ std::vector<Told> forms(const loop::FlankGeometry& g) {
        0,
        0},
       {"unnamed_spot",
-       {5, d, 5, 0.5, 1},
+       {5, d, 5, 0.5, 1, 0},
        "a lump on the left flank",
        "a pit on the left flank",
        5,
@@ -526,7 +526,7 @@ TEST(SizesInWords, AreBoundedByTheFlankAndTheGear) {
   const double d = 2.0 * g.reference_radius_mm();
   ASSERT_NEAR(g.face_width_mm(), 10.0, 1e-9);
   const auto spot = [&](double height, double wide) {
-    return told(g, effect_of("unnamed_spot", {5, d, height, 0.0, wide}, FlankChoice::kRight),
+    return told(g, effect_of("unnamed_spot", {5, d, height, 0.0, wide, 0.0}, FlankChoice::kRight),
                 {4.0});
   };
   EXPECT_THAT(spot(4.0, 190.0),
@@ -536,7 +536,7 @@ TEST(SizesInWords, AreBoundedByTheFlankAndTheGear) {
       spot(4.0, 1.0),
       HasSubstr("a lump on the right flank of tooth 5, at a height of 4 mm, 1 mm over the face"));
   EXPECT_THAT(
-      told(g, effect_of("unnamed_spot", {5, d, 4.0, 50.0, 190.0}, FlankChoice::kLeft), {-4.0}),
+      told(g, effect_of("unnamed_spot", {5, d, 4.0, 50.0, 190.0, 0.0}, FlankChoice::kLeft), {-4.0}),
       testing::StrEq("the left flank of tooth 5 lies back"));
   EXPECT_THAT(told(g, effect_of("unnamed_band", {1, -0.06, 1.7, 0}), {4.0}),
               HasSubstr("a ridge over the face at the lower end"));

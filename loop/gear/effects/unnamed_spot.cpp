@@ -37,6 +37,16 @@ std::vector<EffectShape> spots_beside(const FlankGeometry& g, const EffectShape&
   for (const std::size_t k : {3U, 4U})
     for (const double times : {0.7, 0.88, 1.14, 1.43})
       if (shape[k] > 0.0) add(k, times * shape[k]);
+  // Steep or soft: not alike where they follow the same values.
+  for (const double times : {0.85, 1.0, 1.2})
+    for (const double share : {-0.12, 0.0, 0.12}) {
+      if (shape[4] == 0.0 && share != 0.0) continue;
+      const double height = shape[4] > 0.0
+                                ? std::clamp(shape[2] + share * shape[4], 0.0, g.face_width_mm())
+                                : shape[2];
+      shapes.push_back(
+          {shape[0], shape[1], height, times * shape[3], times * shape[4], 1.0 - shape[5]});
+    }
   return shapes;
 }
 
@@ -44,6 +54,14 @@ std::vector<EffectShape> spots_beside(const FlankGeometry& g, const EffectShape&
 double plateau(double off, double width) {
   const double square = off * off / (width * width);
   return std::exp(-square * square);
+}
+
+/// A bell that ends, at 2.2 times the half width: what is next to nothing far off, where other
+/// traces run, would be learnt there.
+double hill(double off, double half) {
+  constexpr double kEnd = 2.2;
+  const double inside = 1.0 - off * off / (kEnd * kEnd * half * half);
+  return inside > 0.0 ? inside * inside * inside * inside : 0.0;
 }
 
 }  // namespace
@@ -208,25 +226,29 @@ std::string spot_in_words(const ToldForm& told) {
 }  // namespace
 
 EffectFamily unnamed_spot() {
-  EffectFamily f = described(
-      "unnamed_spot", {"tooth", "diameter_mm", "height_mm", "width_profile_mm", "width_face_mm"});
+  EffectFamily f = described("unnamed_spot", {"tooth", "diameter_mm", "height_mm",
+                                              "width_profile_mm", "width_face_mm", "edges"});
   f.flank_only = true;
   f.is_of_one_tooth = true;
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = 0.0;
     if (p.surface != Surface::kFlank || p.tooth != static_cast<int>(shape[0])) return;
+    const auto part = [&](double off, double half) {
+      return shape[5] != 0.0 ? hill(off, half) : plateau(off, half);
+    };
     // A width of 0: over all of it.
     c[0] = (shape[3] > 0.0
-                ? plateau(p.roll_mm - stands_at(g, 0.0, shape[1]), 0.5 * roll_of_width(g, shape))
+                ? part(p.roll_mm - stands_at(g, 0.0, shape[1]), 0.5 * roll_of_width(g, shape))
                 : 1.0) *
-           (shape[4] > 0.0 ? plateau(p.z_mm - shape[2], 0.5 * shape[4]) : 1.0);
+           (shape[4] > 0.0 ? part(p.z_mm - shape[2], 0.5 * shape[4]) : 1.0);
   };
   f.nearby = spots_beside;
   f.term_keys = {{"tooth"},
                  number("diameter_mm"),
                  number("height_mm"),
                  number("width_profile_mm"),
-                 number("width_face_mm")};
+                 number("width_face_mm"),
+                 {"edges", TermKey::Kind::kWord, {"steep", "soft"}}};
   f.words = spot_in_words;
   return f;
 }

@@ -419,8 +419,14 @@ bool take_up_remainder(PartModel& model) {
         if (const std::optional<Effect> name = name_like(model, finding, effects))
           finding.effect = *name;
       if (known(*finding.effect) || !is_told_apart(model, *finding.effect, effects)) continue;
-      take_up(model, finding);
       effects.push_back(*finding.effect);
+      // At its place, or the next one found would be what this one leaves beside it.
+      if (local && family.nearby) {
+        const TrialFit fit = fit_to_refine(model.geometry, model.table, model.patches, effects);
+        move_alone(model.geometry, fit, effects.size() - 1, effects.back().shape);
+        finding.effect = effects.back();
+      }
+      take_up(model, finding);
       return true;
     }
     return false;
@@ -460,12 +466,17 @@ bool drop_idle_forms(PartModel& model) {
     const std::size_t first = first_told_here(model);
     const auto [idle, loss] =
         least_missed(model, first, model.options.given.size(), [](const Effect&) { return true; });
-    if (loss > kIdle) return any;
+    if (loss > kIdle) break;
     model.effects.erase(model.effects.begin() + static_cast<std::ptrdiff_t>(idle));
     model.options.given.erase(model.options.given.begin() + static_cast<std::ptrdiff_t>(idle));
     model.given_p_values.erase(model.given_p_values.begin() +
                                static_cast<std::ptrdiff_t>(idle - first));
     any = true;
+  }
+  if (any) {
+    // What was banned beside them was banned for no reason.
+    model.banned = model.unseen;
+    ban_given(model);
   }
   return any;
 }
