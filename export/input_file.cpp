@@ -9,6 +9,7 @@
 #include <list>
 
 #include "trueflank/base/large_pages.h"
+#include "trueflank/base/threads.h"
 #include "trueflank/export/atomic_file.h"
 
 namespace trueflank::io {
@@ -125,6 +126,10 @@ Result<std::string> read_file(const std::filesystem::path& path, std::size_t mos
   std::string content;
   content.reserve(*size + 1);
   ask_for_large_pages(content.data(), *size + 1);
+  constexpr std::size_t kBytesOfPages = std::size_t{1} << 22U;
+  for_each_run(*size / kBytesOfPages, 1, [&](std::size_t piece, std::size_t) {
+    make_pages_ready(content.data() + piece * kBytesOfPages, kBytesOfPages);
+  });
   content.resize(*size + 1);
   std::size_t filled = 0;
   while (const std::size_t got = file.read(content.data() + filled, content.size() - filled)) {

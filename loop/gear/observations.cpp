@@ -253,9 +253,16 @@ class TableBuilder {
     for (std::size_t time = 0; time <= times && times > 0; ++time) {
       const std::size_t from = time * kAtOnce, taken = time > 0 ? 1 : 0;  // the first piece takes
       const std::size_t count = time < times ? std::min(kAtOnce, points.size() - from) : 0;
-      for_each_piece(taken + (count + kOfWork - 1) / kOfWork, [&](std::size_t piece) {
+      // where they will stand at most
+      Observation* const rows = table.rows.data() + table.rows.size() + taken * kAtOnce;
+      Place* const places = table.places.data() + table.places.size() + taken * kAtOnce;
+      for_each_piece(taken + 1 + (count + kOfWork - 1) / kOfWork, [&](std::size_t piece) {
         if (piece < taken) return take(some[(time - 1) % 2], from - kAtOnce);
-        const std::size_t first = (piece - taken) * kOfWork;
+        if (piece == taken) {
+          make_pages_ready(rows, count * sizeof *rows);
+          return make_pages_ready(places, count * sizeof *places);
+        }
+        const std::size_t first = (piece - taken - 1) * kOfWork;
         put_places(from + first,
                    std::span(some[time % 2]).subspan(first, std::min(count - first, kOfWork)));
       });

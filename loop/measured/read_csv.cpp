@@ -206,6 +206,10 @@ Result<ScanData> read_xyz(const std::string& file, std::string_view text,
   for (const PointLines& piece : pieces) points += piece.points_mm.size();
   scan.points_mm.reserve(points);
   ask_for_large_pages(scan.points_mm.data(), points * sizeof scan.points_mm.front());
+  constexpr std::size_t kPointsOfPages = std::size_t{1} << 17U;
+  for_each_run(points, kPointsOfPages, [&](std::size_t from, std::size_t to) {
+    make_pages_ready(scan.points_mm.data() + from, (to - from) * sizeof scan.points_mm.front());
+  });
   int line = 0;
   for (PointLines& piece : pieces) {
     scan.points_mm.insert(scan.points_mm.end(), piece.points_mm.begin(), piece.points_mm.end());

@@ -13,34 +13,33 @@ constexpr double kApart = 4.0;
 /// flank.
 constexpr double kLeastOfFlank = 0.1;
 
-/// Chamfers take a break away within their height: there columns go with the chamfered flank as it
-/// is.
-double unchamfered_break(const Toothing& toothing, int tooth, int side, double roll_mm,
-                         double z_mm) {
+}  // namespace
+
+/// Where chamfers are left, they take a break away within their height.
+double FlankBreaks::break_at(const Toothing& toothing, int tooth, int side, double roll_mm,
+                             double z_mm) const {
   Toothing whole = toothing;
-  whole.edge_chamfer_mm = 0.0;
+  if (in_chamfers_ == InChamfers::kLeft) whole.edge_chamfer_mm = 0.0;
   whole.bed = nullptr;
   return break_parameter(whole, tooth, side, roll_mm, z_mm);
 }
 
-}  // namespace
-
 FlankBreaks::FlankBreaks(const Toothing& toothing, const std::vector<int>& teeth,
-                         const std::vector<double>& heights_mm, double least_mm)
-    : flank_(involute_piece(*toothing.profile)), least_mm_(least_mm) {
+                         const std::vector<double>& heights_mm, double least_mm,
+                         InChamfers in_chamfers)
+    : flank_(involute_piece(*toothing.profile)), least_mm_(least_mm), in_chamfers_(in_chamfers) {
   const Curve& curve = toothing.profile->pieces()[flank_].curve;
   begin_ = curve.begin, end_ = curve.end;
   if (!toothing.has_deviation()) return;
   const int left = flank_side(Flank::kLeft, toothing.profile->gear().kind);
   std::vector<Break> found;
   for (const double roll_mm : toothing.deviation->roll_breaks_mm) {
-    const double usual =
-        unchamfered_break(toothing, 0, left, roll_mm, 0.5 * toothing.twist.face_width_mm);
+    const double usual = break_at(toothing, 0, left, roll_mm, 0.5 * toothing.twist.face_width_mm);
     std::vector<double> stands{usual};
     for (const int tooth : teeth)
       for (const int side : {-1, 1})
         for (const double z : heights_mm)
-          stands.push_back(unchamfered_break(toothing, tooth, side, roll_mm, z));
+          stands.push_back(break_at(toothing, tooth, side, roll_mm, z));
     wander_ =
         wander_ || std::any_of(stands.begin(), stands.end(), [&](double s) { return s != usual; });
     const double room = least_share(roll_mm);
@@ -79,9 +78,9 @@ ToothPlace FlankBreaks::drawn(const Toothing& toothing, const ToothPlace& place,
   for (std::size_t k = 0; k < parameters_.size(); ++k) {
     const double room = std::min(least_share(rolls_mm_[k]), kLeastOfFlank / left);
     const double low = drawn_from + room, high = 1.0 - room * (left - static_cast<double>(k));
-    const double there = std::clamp(
-        share_of(unchamfered_break(toothing, place.tooth, place.side, rolls_mm_[k], z_mm)),
-        std::min(low, high), high);
+    const double there =
+        std::clamp(share_of(break_at(toothing, place.tooth, place.side, rolls_mm_[k], z_mm)),
+                   std::min(low, high), high);
     if (share <= share_of(parameters_[k])) {
       to = share_of(parameters_[k]), drawn_to = there;
       break;

@@ -13,11 +13,15 @@ namespace trueflank {
 /// everywhere.
 class FlankBreaks {
  public:
+  /// Within chamfers: columns follow a break as far as it stays on the flank, or go with the
+  /// chamfered flank as it is.
+  enum class InChamfers { kFollowed, kLeft };
   FlankBreaks() = default;
   /// Breaks that stand on the flank on one of the teeth at one of the heights, by more than
   /// `least_mm` from its ends and from each other.
   FlankBreaks(const Toothing& toothing, const std::vector<int>& teeth,
-              const std::vector<double>& heights_mm, double least_mm);
+              const std::vector<double>& heights_mm, double least_mm,
+              InChamfers in_chamfers = InChamfers::kLeft);
 
   /// Where the columns of the breaks stand, from the flank's begin to its end.
   [[nodiscard]] const std::vector<double>& parameters() const { return parameters_; }
@@ -37,10 +41,13 @@ class FlankBreaks {
   }
   [[nodiscard]] double least_share(double roll_mm) const;
   void keep_apart(std::vector<Break> breaks);
+  [[nodiscard]] double break_at(const Toothing& toothing, int tooth, int side, double roll_mm,
+                                double z_mm) const;
 
   std::size_t flank_ = 0;
   double begin_ = 0.0, end_ = 1.0, least_mm_ = 0.0;
   bool wander_ = false;
+  InChamfers in_chamfers_ = InChamfers::kLeft;
   std::vector<double> rolls_mm_, parameters_;
 };
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "trueflank/base/contract.h"
 #include "trueflank/base/units.h"
@@ -319,9 +320,10 @@ class PatchBuilder {
       return way[static_cast<std::size_t>(column - from)];
     }, level);
     const auto [ll, lr, ur, ul] = strip.corners;
-    if (!inside) return join(strip.way_back(ul, ur), strip.way(ll, lr), kReachAcross);
+    const double reach = edge(from).in_chamfer ? kReach : kReachAcross;
+    if (!inside) return join(strip.way_back(ul, ur), strip.way(ll, lr), reach);
     for (const std::size_t start : {ll, ul})
-      for (const std::size_t end : {ur, lr}) join_corners(strip, start, end, kReachAcross);
+      for (const std::size_t end : {ur, lr}) join_corners(strip, start, end, reach);
   }
 
   /// From column to column.
@@ -432,10 +434,11 @@ class PatchBuilder {
                        : joined(reversed(lower), at_from, {upper.front()});
     Chain right = along ? joined(lower, at_to, {upper.back()})
                         : joined({lower.back()}, at_to, reversed(upper));
+    Chain loop;
+    std::array<std::size_t, 4> corners{};
     if (surface_ != nullptr) {
-      Chain loop = joined(lower, at_to, reversed(upper));
-      const std::array<std::size_t, 4> corners{0, lower.size() - 1, lower.size() + at_to.size(),
-                                               loop.size() - 1};
+      loop = joined(lower, at_to, reversed(upper));
+      corners = {0, lower.size() - 1, lower.size() + at_to.size(), loop.size() - 1};
       const Chain back = reversed(at_from);
       loop.insert(loop.end(), back.begin(), back.end());
       split_at_ends(loop, corners, left, right);
@@ -454,6 +457,24 @@ class PatchBuilder {
       return std::max({off(a, b), off(b, c), off(c, a)});
     };
     join_ways(left, right, error, kReach);
+    if (edge(from).in_chamfer && best_.largest > rows_->tolerance_mm)
+      for (const auto& [start, end] : {std::pair{0, 2}, {1, 3}, {0, 1}, {3, 2}})
+        join_around(loop, corners[static_cast<std::size_t>(start)],
+                    corners[static_cast<std::size_t>(end)], error);
+  }
+
+  /// Both ways round a closed border from one vertex to another.
+  template <class Error>
+  void join_around(const Chain& loop, std::size_t start, std::size_t end, const Error& error) {
+    const std::size_t n = loop.size(), ahead = (end + n - start) % n;
+    if (ahead < 2 || n - ahead < 2) return;  // no vertices on one of the ways
+    const double sense = loop[end].along < loop[start].along ? -1.0 : 1.0;
+    Chain forwards, backwards;
+    for (std::size_t k = 0; k <= ahead; ++k) forwards.push_back(loop[(start + k) % n]);
+    for (std::size_t k = 0; k <= n - ahead; ++k) backwards.push_back(loop[(start + n - k) % n]);
+    for (Chain* chain : {&forwards, &backwards})
+      for (Link& link : *chain) link.along *= sense;
+    join_ways(backwards, forwards, error, kReach);
   }
 
   const std::vector<NetEdge>& edges_;

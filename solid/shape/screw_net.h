@@ -21,6 +21,7 @@ struct NetEdge {
       false;  ///< of a surface: joined from edge to edge of the patch, not column to column
   int strips =
       1;  ///< of a surface joined across: as many, one above the other, between rows of vertices
+  bool in_chamfer = false;  ///< facets of rows lean by no more than a step; strips may be trapezia
   double length_mm = 0.0;
   double turn_rad = 0.0;  ///< of the section's normal on the way
   double support_mm = 0.0, support_from_mm = 0.0,

@@ -12,6 +12,10 @@
 // docs/theory/helical-facets.md.
 namespace trueflank {
 
+/// Saddles bent by less than this share of the room have facets from break to break as wide as
+/// their chords, wherever these stand.
+inline constexpr double kSlackOfSaddles = 1.25;
+
 struct SurfaceForm {
   double across = 0.0, mixed = 0.0, along = 0.0;
   double level = 0.0;  ///< of the step across in its own plane, where rows end the surface
@@ -22,6 +26,11 @@ struct SurfaceForm {
   [[nodiscard]] double conjugate(double room_mm) const {
     const double bent = std::max(std::abs(along), 0.5 * room_mm);
     return across - mixed * mixed / std::copysign(bent, along);
+  }
+  /// What is left of the way up along the straightest way, in rooms: below 0 on saddles.
+  [[nodiscard]] double left_up(double room_mm) const {
+    const double bent = std::max(std::abs(across), 1e-6 * room_mm);
+    return (along * (across < 0.0 ? -1.0 : 1.0) - mixed * mixed / bent) / room_mm;
   }
   [[nodiscard]] bool is_dome(double room_mm) const { return conjugate(room_mm) * along > 0.0; }
 

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
 
 #include "trueflank/solid/shape/column_demand.h"
+#include "trueflank/solid/shape/strip_rows.h"
 #include "trueflank/solid/shape/surface_form.h"
 #include "trueflank/solid/shape/toothing_grid.h"
 
@@ -36,6 +38,14 @@ class ToothingGrid::SurfaceNet {
   using CellForms = std::vector<SurfaceForm>;
   using PanelForms = std::array<CellForms, kCells>;
 
+  /// Part of a chamfer's fillet between two posts [cells]: strips one above the other, between rows
+  /// of vertices at even heights.
+  struct Stretch {
+    double from = 0.0, to = kCells;
+    int strips = 1;
+    StripRows rows = {};          ///< from the break outwards
+    std::size_t first_level = 0;  ///< number of the lowest row within the patch, whichever stretch
+  };
   /// How a patch crosses a panel.
   struct Crossing {
     PanelForms forms;  ///< over a cell and the patch
@@ -44,10 +54,7 @@ class ToothingGrid::SurfaceNet {
     bool across = false;   ///< no vertices inside: facets reach from one break to the other
     bool between = false;  ///< the vertices of one break stand between those of the other
     int rows = 1;          ///< of a dome
-    int strips = 1;  ///< across: one above the other, between rows of vertices at even heights
-    int least_strips = 1, most_strips = 1;
-    double saddle = 0.0;          ///< what is left of the way up on saddles, at most, in rooms
-    std::size_t first_level = 0;  ///< number of the lowest of these rows
+    std::vector<Stretch> stretches = {};  ///< of a chamfer's fillet
   };
   /// What lies between two joints or breaks of the profile.
   struct Panel {
@@ -90,12 +97,32 @@ class ToothingGrid::SurfaceNet {
   [[nodiscard]] double room_of(const Panel& panel, std::size_t patch, std::size_t cell) const;
   [[nodiscard]] ColumnDemand columns(const Panel& panel, std::size_t patch, int rows) const;
   [[nodiscard]] ColumnDemand chords(const Panel& panel, std::size_t row) const;
-  [[nodiscard]] static double chords_of(const Crossing& crossing, std::size_t cell, double room);
+  [[nodiscard]] static double chords_of(const Crossing& crossing, std::size_t cell, double room,
+                                        int strips = 1);
+  [[nodiscard]] static std::size_t cell_of(const Panel& panel, double parameter) {
+    const double share = (parameter - panel.from) / (panel.to - panel.from);
+    return static_cast<std::size_t>(std::clamp(share * kCells, 0.0, kCells - 1.0));
+  }
   [[nodiscard]] double straight_way(const Panel& panel, std::size_t patch, double parameter) const;
   void choose_crossing(Panel& panel, std::size_t patch) const;
+
+  // surface_net_chamfers.cpp: fillets of edge chamfers
+  /// By cell: facets with so many strips.
+  using CellCosts = std::array<std::vector<double>, kCells>;
+  using StripsByCell = std::array<int, kCells>;
   [[nodiscard]] bool is_chamfer(std::size_t patch) const;
-  void choose_strips(std::size_t patch);
-  [[nodiscard]] double facets_with(Panel& panel, std::size_t patch, int strips) const;
+  [[nodiscard]] static bool is_fillet(const Panel& panel) { return !panel.land && !panel.flank; }
+  void lay_strips();
+  [[nodiscard]] BentEdges bent_edges(const Panel& panel, std::size_t patch) const;
+  [[nodiscard]] StripsByCell choose_strips(const Panel& panel, std::size_t patch) const;
+  [[nodiscard]] CellCosts costs_of_strips(const Panel& panel, std::size_t patch) const;
+  [[nodiscard]] std::pair<double, double> rows_with(const Panel& panel, std::size_t patch,
+                                                    std::size_t cell, int strips) const;
+  [[nodiscard]] RowBeside row_beside(const Panel& panel, std::size_t patch) const;
+  void lay_stretches(Panel& panel, std::size_t patch, const StripsByCell& strips) const;
+  void add_strips(Panel& panel, std::size_t patch, std::vector<std::vector<double>>& rows,
+                  std::vector<std::vector<double>>& levels) const;
+  [[nodiscard]] const Stretch* stretch_of(std::size_t edge, double from, double to) const;
 
   // surface_net_columns.cpp: where vertices stand
   void spread();
@@ -103,9 +130,8 @@ class ToothingGrid::SurfaceNet {
   void add_panel(Panel& panel);
   [[nodiscard]] std::vector<double> row_between(const Panel& panel, std::size_t patch,
                                                 const std::vector<double>& other) const;
-  [[nodiscard]] std::vector<double> row_alone(const Panel& panel, std::size_t patch) const;
   [[nodiscard]] std::vector<std::vector<double>> level_rows(
-      const Panel& panel, std::vector<std::vector<double>>& rows) const;
+      Panel& panel, std::vector<std::vector<double>>& rows) const;
   void add_columns(const Panel& panel, const std::vector<std::vector<double>>& rows,
                    const std::vector<std::vector<double>>& levels);
   [[nodiscard]] double rows_of(const Crossing& crossing) const;
@@ -150,6 +176,8 @@ class ToothingGrid::SurfaceNet {
   Toothing unmoved_;        ///< without its displacement
   std::size_t pieces_ = 0;
   std::vector<Panel> panels_;
+  std::vector<StripsByCell> strips_;  ///< of the chamfers' fillets, one after the other
+  int round_ = 0;
   Aims aims_;
   std::vector<NetEdge> net_;  ///< of patch_
   std::size_t patch_ = 0;

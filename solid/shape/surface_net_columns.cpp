@@ -42,7 +42,7 @@ void ToothingGrid::SurfaceNet::spread() {
   g_.edges_.clear();
   for (Panel& panel : panels_)
     if (!panel.land) find_posts(panel);
-  for (const std::size_t patch : {std::size_t{0}, patch_count() - 1}) choose_strips(patch);
+  lay_strips();
   for (Panel& panel : panels_) {
     const std::size_t first = g_.edges_.size();
     if (panel.land)
@@ -146,37 +146,18 @@ std::vector<double> ToothingGrid::SurfaceNet::row_between(const Panel& panel, st
   return result;
 }
 
-/// Vertices of a row that asks nothing of its neighbours.
-std::vector<double> ToothingGrid::SurfaceNet::row_alone(const Panel& panel,
-                                                        std::size_t patch) const {
-  ColumnDemand wanted(panel.from, panel.to);
-  for (std::size_t c = 0; c < kCells; ++c)
-    wanted.add(chords_of(panel.patches[patch], c, room_of(panel, patch, c)));
-  const int count = whole_parts(wanted.whole());
-  std::vector<double> result;
-  for (int k = 0; k <= count; ++k) result.push_back(wanted.between(panel.from, panel.to, k, count));
-  return result;
-}
-
-/// Rows within the patches at the end faces, from the break outwards, each between the one before;
-/// where vertices stand between one another, the end face's row, too.
+/// Rows within the patches at the end faces; where vertices stand between one another, the end
+/// face's row, too.
 std::vector<std::vector<double>> ToothingGrid::SurfaceNet::level_rows(
-    const Panel& panel, std::vector<std::vector<double>>& rows) const {
+    Panel& panel, std::vector<std::vector<double>>& rows) const {
   std::vector<std::vector<double>> levels;
   for (const bool down : {true, false}) {
     const std::size_t patch = down ? 0 : patch_count() - 1;
-    const Crossing& crossing = panel.patches[patch];
     if (!down && patch == 0) break;
-    std::vector<std::vector<double>> inside;
-    const std::vector<double>* other = &rows[down ? 1 : patch];
-    for (int k = 1; k < crossing.strips; ++k) {
-      inside.push_back(crossing.between ? row_between(panel, patch, *other)
-                                        : row_alone(panel, patch));
-      other = &inside.back();
-    }
-    if (crossing.between) rows[down ? 0 : patch + 1] = row_between(panel, patch, *other);
-    if (down) std::reverse(inside.begin(), inside.end());
-    levels.insert(levels.end(), inside.begin(), inside.end());
+    if (is_chamfer(patch) && is_fillet(panel))
+      add_strips(panel, patch, rows, levels);
+    else if (panel.patches[patch].between)
+      rows[down ? 0 : patch + 1] = row_between(panel, patch, rows[down ? 1 : patch]);
   }
   return levels;
 }
@@ -184,8 +165,6 @@ std::vector<std::vector<double>> ToothingGrid::SurfaceNet::level_rows(
 void ToothingGrid::SurfaceNet::add_panel(Panel& panel) {
   std::vector<std::vector<double>> rows;
   for (std::size_t row = 0; row <= patch_count(); ++row) rows.push_back(row_of(panel, row));
-  panel.patches.back().first_level = static_cast<std::size_t>(panel.patches.front().strips) - 1;
-  panel.patches.front().first_level = 0;
   add_columns(panel, rows, level_rows(panel, rows));
 }
 

@@ -13,6 +13,10 @@ namespace {
 /// Where a chord's middle lies farther from the surface's own, it is looked for.
 constexpr double kOffMiddle = 0.02;
 
+/// Facets of chamfers are off by as much nearly everywhere, and between the places looked at by up
+/// to so many times more.
+constexpr double kOfChamfers = 1.025;
+
 /// Largest distance of a facet from the surface, whose point over the share of the edge from p to q
 /// is over(p, q, share). In a strip edges may bend in one half alone.
 template <typename Corner, typename Over>
@@ -94,9 +98,10 @@ void ToothingGrid::SurfaceNet::measure(const NetPatch& net, int tooth, Aims& err
       return over_moved_middle(p, q);
     };
     const bool in_strip = net_[edge].developable || net_[edge].across;
-    const double error = !on_land(edge) ? facet_error(corner, in_strip, over_flank)
-                         : moved        ? facet_error(corner, false, over_land)
-                                        : land_error(corner);
+    const double seen = !on_land(edge) ? facet_error(corner, in_strip, over_flank)
+                        : moved        ? facet_error(corner, false, over_land)
+                                       : land_error(corner);
+    const double error = net_[edge].in_chamfer ? kOfChamfers * seen : seen;
     const auto [low_sample, high_sample] = samples(
         surface.piece, std::min({corner[0].parameter, corner[1].parameter, corner[2].parameter}),
         std::max({corner[0].parameter, corner[1].parameter, corner[2].parameter}));

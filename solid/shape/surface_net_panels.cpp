@@ -9,41 +9,27 @@
 namespace trueflank {
 namespace {
 
-/// Saddles bent by less than this share of the room have facets from break to break as wide as
-/// their chords, wherever these stand.
-constexpr double kSlack = 1.25;
-/// The same of domes.
+/// Domes bent by less than this share of the room have facets from break to break as wide as their
+/// chords.
 constexpr double kAlmostWhole = 0.75;
-/// Saddles bent by less than this share of the room have facets wherever vertices stand.
-constexpr double kAnyPhase = 1.0;
-/// More strips a chamfer is not cut into.
-constexpr int kMostStrips = 24;
-
-/// What is left of the way up along the straightest way, in rooms: below 0 on saddles.
-double left_up(const SurfaceForm& form, double room_mm) {
-  const double across = std::max(std::abs(form.across), 1e-6 * room_mm);
-  return (form.along * (form.across < 0.0 ? -1.0 : 1.0) - form.mixed * form.mixed / across) /
-         room_mm;
-}
 
 /// Vertices that one step asks for of either break where facets reach from one to the other.
 double vertices_across(SurfaceForm form, double room_mm, int strips) {
   form.mixed /= strips, form.along /= strips * strips;
-  const double bent = std::max(std::abs(form.across), 1e-6 * room_mm), q = left_up(form, room_mm);
+  const double bent = std::max(std::abs(form.across), 1e-6 * room_mm), q = form.left_up(room_mm);
   const double chords = std::sqrt(bent / room_mm);
-  return -q <= kSlack ? chords : chords / (std::sqrt(1.0 - q) - std::sqrt(-q - 1.0));
+  return -q <= kSlackOfSaddles ? chords : chords / (std::sqrt(1.0 - q) - std::sqrt(-q - 1.0));
 }
 
 /// How far vertices of one row of a strip stand from the middles of the other's: halfway between
 /// the steepest and the flattest edge that keep the tolerance.
-double way_between(SurfaceForm form, double room_mm, int strips) {
-  form.mixed /= strips, form.along /= strips * strips;
-  const double bent = std::max(std::abs(form.across), 1e-6 * room_mm), m = -left_up(form, room_mm);
+double way_between(const SurfaceForm& form, double room_mm) {
+  const double bent = std::max(std::abs(form.across), 1e-6 * room_mm), m = -form.left_up(room_mm);
   const double chord = std::sqrt(room_mm / bent);
   const double lean = form.mixed / (form.across < 0.0 ? -bent : bent);
-  const double centre =
-      m > kSlack ? 0.5 * (std::sqrt(m + 1.0) + std::sqrt(m - 1.0))
-                 : std::min(std::sqrt(std::max(m, 0.0)), std::sqrt(std::max(m + 1.0, 0.25)) - 0.5);
+  const double centre = m > kSlackOfSaddles ? 0.5 * (std::sqrt(m + 1.0) + std::sqrt(m - 1.0))
+                                            : std::min(std::sqrt(std::max(m, 0.0)),
+                                                       std::sqrt(std::max(m + 1.0, 0.25)) - 0.5);
   return std::copysign(chord * centre, lean) - lean;
 }
 
@@ -142,12 +128,12 @@ ColumnDemand ToothingGrid::SurfaceNet::columns(const Panel& panel, std::size_t p
 }
 
 /// Vertices that a row within or beside a patch asks for.
-double ToothingGrid::SurfaceNet::chords_of(const Crossing& crossing, std::size_t cell,
-                                           double room) {
+double ToothingGrid::SurfaceNet::chords_of(const Crossing& crossing, std::size_t cell, double room,
+                                           int strips) {
   double most = 1e-9;
   for (const SurfaceForm& form : crossing.forms[cell]) {
     most = std::max(most, std::sqrt(form.level / room));
-    if (crossing.across) most = std::max(most, vertices_across(form, room, crossing.strips));
+    if (crossing.across) most = std::max(most, vertices_across(form, room, strips));
   }
   return most;
 }
@@ -165,60 +151,18 @@ ColumnDemand ToothingGrid::SurfaceNet::chords(const Panel& panel, std::size_t ro
   return demand;
 }
 
-/// The lower or upper end of the grid, if that is an edge chamfer's.
-bool ToothingGrid::SurfaceNet::is_chamfer(std::size_t patch) const {
-  const std::size_t last = patch_count() - 1;
-  if (chamfers_ == Chamfers::kPosts || last == 0 || (patch != 0 && patch != last)) return false;
-  const double z = height_of(patch, 0.5),
-               from_end = std::min(z, g_.toothing_.twist.face_width_mm - z);
-  return from_end < g_.toothing_.edge_chamfer_mm;
-}
-
-/// Of all panels of a chamfer together: their common columns have vertices for the strips of both.
-void ToothingGrid::SurfaceNet::choose_strips(std::size_t patch) {
-  if (!is_chamfer(patch)) return;
-  int least = 1, most = 1;
-  for (const Panel& panel : panels_)
-    if (!panel.land && !panel.flank) {
-      least = std::max(least, panel.patches[patch].least_strips);
-      most = std::max(most, panel.patches[patch].most_strips);
-    }
-  int best = least;
-  double fewest = 1e300;
-  for (int strips = least; strips <= most; ++strips) {
-    double facets = 0.0;
-    for (Panel& panel : panels_)
-      if (!panel.land && !panel.flank) facets += facets_with(panel, patch, strips);
-    if (facets < fewest) fewest = facets, best = strips;
-  }
-  for (Panel& panel : panels_)
-    if (!panel.land && !panel.flank) (void)facets_with(panel, patch, best);
-}
-
-/// Leaves the patch with so many strips; its facets, and those that its rows cost beside it.
-double ToothingGrid::SurfaceNet::facets_with(Panel& panel, std::size_t patch, int strips) const {
-  Crossing& crossing = panel.patches[patch];
-  crossing.strips = strips;
-  crossing.between = crossing.saddle > kAnyPhase * strips * strips;
-  const auto on_break = static_cast<double>(row_of(panel, patch == 0 ? 1 : patch).size());
-  const double inside =
-      crossing.between ? on_break : static_cast<double>(row_alone(panel, patch).size());
-  return 2.0 * strips * inside + 2.0 * on_break;
-}
-
 /// How far a straight line of the surface wanders along the panel from the lower break to the upper
 /// one; of two the one that is nearly upright.
 double ToothingGrid::SurfaceNet::straight_way(const Panel& panel, std::size_t patch,
                                               double parameter) const {
-  const double share = (parameter - panel.from) / (panel.to - panel.from);
-  const auto cell = static_cast<std::size_t>(std::clamp(share * kCells, 0.0, kCells - 1.0));
+  const std::size_t cell = cell_of(panel, parameter);
   double cells = 0.0;
   for (const std::size_t k :
        {std::size_t{1}, kHeights.size() + 1}) {  // of both sides, at half height
     const SurfaceForm& f = panel.patches[patch].forms[cell][k];
     const double under = f.mixed * f.mixed - f.across * f.along;
     if (is_chamfer(patch))
-      cells += 0.5 * way_between(f, room_of(panel, patch, cell), panel.patches[patch].strips);
+      cells += 0.5 * way_between(f, room_of(panel, patch, cell));
     else if (under > 0.0)
       cells -= 0.5 * f.along / (f.mixed + std::copysign(std::sqrt(under), f.mixed));
   }
@@ -234,26 +178,18 @@ void ToothingGrid::SurfaceNet::choose_crossing(Panel& panel, std::size_t patch) 
     const double room = room_of(panel, patch, c);
     for (const SurfaceForm& form : crossing.forms[c]) {
       along = std::max(along, std::abs(form.along) / room);
-      dome = std::max(dome, left_up(form, room));
-      saddle = std::max(saddle, -left_up(form, room));
-      left = std::max(left, std::abs(left_up(form, 8.0 * tolerance_)));
+      dome = std::max(dome, form.left_up(room));
+      saddle = std::max(saddle, -form.left_up(room));
+      left = std::max(left, std::abs(form.left_up(8.0 * tolerance_)));
     }
   }
   crossing.across = along <= 1.0 && dome <= kAlmostWhole;
-  crossing.between = crossing.across && saddle > kSlack;
-  crossing.rows = crossing.strips = 1;
-  crossing.least_strips = crossing.most_strips = 1;
+  crossing.between = crossing.across && saddle > kSlackOfSaddles;
+  crossing.rows = 1;
   crossing.bare = false;
   if (is_chamfer(patch)) {
     crossing.bare = panel.flank && !crossing.across && left <= kAlmostWhole;
-    if (!panel.flank) {
-      crossing.across = true;
-      crossing.least_strips =
-          std::min(kMostStrips, whole_parts(std::sqrt(std::max(along, dome / kAlmostWhole))));
-      crossing.most_strips =
-          std::clamp(whole_parts(std::sqrt(saddle)), crossing.least_strips, kMostStrips);
-      crossing.saddle = saddle;
-    }
+    crossing.across = crossing.across || !panel.flank;
   }
   if (!crossing.dome || crossing.across) return;
   const int fewest = whole_parts(std::sqrt(along));

@@ -169,7 +169,7 @@ void ToothingGrid::add_roll_breaks(double tolerance_mm) {
   breaks_ = FlankBreaks(
       toothing_, some_teeth(),
       {low, std::lerp(low, high, 0.25), 0.5 * (low + high), std::lerp(low, high, 0.75), high},
-      same_mm);
+      same_mm, breaks_in_chamfers_);
   const std::size_t flank = involute_piece(*toothing_.profile);
   const double r_b = base_radius_mm(toothing_.profile->gear());
   for (std::size_t k = 0; k < breaks_.parameters().size(); ++k) {

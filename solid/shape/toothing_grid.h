@@ -171,6 +171,7 @@ class ToothingGrid {
   std::vector<NetPatch> patches_;
   std::vector<HalfEdge> edges_;
   FlankBreaks breaks_;
+  FlankBreaks::InChamfers breaks_in_chamfers_ = FlankBreaks::InChamfers::kLeft;
   Place first_, last_;  ///< of the half tooth
   bool vertex_at_tooth_middle_ = true, vertex_at_gap_middle_ = true;
   std::vector<Place> points_, middles_;  ///< of a whole tooth; middle i follows point i

@@ -30,8 +30,28 @@ constexpr double kOneChord = 1.02;
 /// lines of a patch may have of the tolerance.
 constexpr int kBendSteps = 48, kBendAngles = 16;
 constexpr double kShareOfBend = 0.3;
+/// Rows that are nearer, as a share of the patch, are one.
+constexpr double kSameHeightOfRows = 1e-9;
 /// Of an edge, where its normals are found.
 constexpr double kNear = 1e-3;
+
+/// Of a column where rows of so many strips on either side end, and that needs so many parts.
+std::vector<double> heights_between(int strips, int other, int parts) {
+  std::vector<double> heights;
+  const auto add = [&](int of) {
+    for (int k = 1; k < of; ++k) heights.push_back(static_cast<double>(k) / of);
+  };
+  if (parts > std::max(strips, other)) {
+    const int both = std::lcm(strips, other);
+    add((parts + both - 1) / both * both);
+    return heights;
+  }
+  add(strips), add(other);
+  std::sort(heights.begin(), heights.end());
+  const auto same = [](double a, double b) { return b - a < kSameHeightOfRows; };
+  heights.erase(std::unique(heights.begin(), heights.end(), same), heights.end());
+  return heights;
+}
 
 /// Neighbours of what is too coarse.
 template <class Aims>
@@ -66,6 +86,7 @@ bool ToothingGrid::SurfaceNet::lay(double most_facets) {
   std::iota(all.begin(), all.end(), 0);
   const int rounds = g_.teeth_alike_ ? kSurfaceRounds : kRoundsOfTeethThatDiffer;
   for (int round = 0; round < rounds; ++round) {
+    round_ = round;
     spread();
     net_ = g_.net_edges();
     Aims errors(aims_.size(), std::array<double, kSamples>{});
@@ -180,12 +201,13 @@ void ToothingGrid::SurfaceNet::join_regions() {
     const std::size_t end = region_end(i);
     const bool flank = is_flank(i), land = on_land(i);
     bool developable = flank || land, across = false;
+    const bool in_chamfer = is_chamfer(patch_);
     int strips = 1;
     if (!land) {
       const Panel& panel = panel_of(i);
       across = panel.patches[patch_].across;
-      strips = panel.patches[patch_].strips;
       const auto [from, to] = span_of(i, end);
+      if (const Stretch* stretch = stretch_of(i, from, to)) strips = stretch->strips;
       const double room = 8.0 * aim_between(patch_, panel.piece, from, to);
       const auto share = [&](double parameter) {
         return kCells * (parameter - panel.from) / (panel.to - panel.from);
@@ -202,7 +224,7 @@ void ToothingGrid::SurfaceNet::join_regions() {
     }
     for (; i < end; ++i) {
       net_[i].developable = developable, net_[i].across = across;
-      net_[i].strips = strips;
+      net_[i].strips = strips, net_[i].in_chamfer = in_chamfer;
     }
   }
 }
@@ -218,7 +240,7 @@ double ToothingGrid::SurfaceNet::steps_of(std::size_t from, std::size_t to) cons
   const auto share = [&](double parameter) {
     return kCells * (parameter - panel.from) / (panel.to - panel.from);
   };
-  if (crossing.across) return crossing.strips;
+  if (crossing.across) return net_[from].strips;
   if (crossing.bare) return bare_steps(crossing, begin == panel.from ? 0 : kCells - 1, room);
   const double width = share(end) - share(begin);
   const auto cell_at = [](double cells) {
@@ -289,14 +311,17 @@ std::vector<std::vector<double>> ToothingGrid::SurfaceNet::inner_rows() const {
   const std::vector<bool> between = columns_between();
   std::vector<std::vector<double>> inner(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const int strips = net_[i].strips, beside = std::max(strips, net_[(i + n - 1) % n].strips);
+    const int strips = net_[i].strips, before = net_[(i + n - 1) % n].strips;
     if (inside[i]) {
       for (int k = 1; k < strips; ++k)
         if (is_on_level(i, k)) inner[i].push_back(static_cast<double>(k) / strips);
       continue;
     }
-    parts[i] = (parts[i] + beside - 1) / beside * beside;  // the rows between strips end here
-    const bool shifted = between[i] && parts[i] > 1 && beside == 1;
+    if (strips > 1 || before > 1) {
+      inner[i] = heights_between(strips, before, parts[i]);
+      continue;
+    }
+    const bool shifted = between[i] && parts[i] > 1;
     for (int k = shifted ? 0 : 1; k < parts[i]; ++k)
       inner[i].push_back((k + (shifted ? 0.5 : 0.0)) / parts[i]);
   }
@@ -337,12 +362,13 @@ std::vector<bool> ToothingGrid::SurfaceNet::columns_between() const {
   return between;
 }
 
-/// Whether a column within a region has a vertex on the row above so many strips.
+/// Whether a column within a stretch has a vertex on the row above so many of its strips.
 bool ToothingGrid::SurfaceNet::is_on_level(std::size_t column, int below) const {
   const HalfEdge* half = g_.begins_at(column);
-  const std::size_t level =
-      panel_of(column).patches[patch_].first_level + static_cast<std::size_t>(below) - 1;
-  return half != nullptr && ((half->levels >> level) & 1U) != 0;
+  const Stretch* stretch = half == nullptr ? nullptr : stretch_of(column, half->from, half->to);
+  if (stretch == nullptr) return false;
+  const std::size_t level = stretch->first_level + static_cast<std::size_t>(below) - 1;
+  return ((half->levels >> level) & 1U) != 0;
 }
 
 /// Steps of a land's border: the chords of its column.
@@ -432,15 +458,17 @@ void ToothingGrid::add_bend_breaks(double tolerance_mm) {
 
 bool ToothingGrid::try_surface_net(double tolerance_mm, double most_facets) {
   edges_.clear();
+  breaks_in_chamfers_ = FlankBreaks::InChamfers::kFollowed;
   start_columns(tolerance_mm);
   start_layers(tolerance_mm);
   add_bend_breaks(tolerance_mm);
-  if (breaks_mm_.size() > kMostBreaks) return false;
   const double section_error_mm = section_error_mm_;
-  const std::vector<HalfEdge> chords = edges_;
-  bool laid = SurfaceNet(*this, tolerance_mm).lay(most_facets);
-  if (!laid && toothing_.edge_chamfer_mm > 0.0) {
-    edges_ = chords;
+  const bool may_be_net = breaks_mm_.size() <= kMostBreaks;
+  bool laid = may_be_net && SurfaceNet(*this, tolerance_mm).lay(most_facets);
+  breaks_in_chamfers_ = FlankBreaks::InChamfers::kLeft;
+  if (!laid && may_be_net && toothing_.edge_chamfer_mm > 0.0) {
+    edges_.clear();
+    start_columns(tolerance_mm);
     laid = SurfaceNet(*this, tolerance_mm, SurfaceNet::Chamfers::kPosts).lay(most_facets);
   }
   if (!laid) {

@@ -57,6 +57,21 @@ class LeastFacets {
     return false;
   }
 
+  /// End faces and the breaks of chamfers: a row's edge bounds a surface that goes on to one side
+  /// only. Its middle has no foot on that surface, or the surface's edge none on the facet, so that
+  /// one of them is off by the whole departure in the section's plane.
+  [[nodiscard]] bool ends_surface(double z) const {
+    const double from_end = std::min(z, toothing_.twist.face_width_mm - z);
+    return std::abs(from_end) < 1e-9 || std::abs(from_end - toothing_.edge_chamfer_mm) < 1e-9;
+  }
+  /// Second difference of a section in its own plane.
+  [[nodiscard]] double level(std::size_t piece, int side, double from, double to, double z) const {
+    const Point3 a = at(piece, side, from, z), b = at(piece, side, to, z);
+    const Point3 bent = 4.0 * (a + b - 2.0 * at(piece, side, 0.5 * (from + to), z));
+    const Point3 chord = (b - a).normalized();
+    return (bent - chord * bent.dot(chord)).norm();
+  }
+
   [[nodiscard]] double of_wall(std::size_t piece, int side, double z0, double z1) const {
     const Curve& curve = toothing_.profile->pieces()[piece].curve;
     const double room = 8.0 * tolerance_, up = (z1 - z0) / kAlong;
@@ -80,8 +95,13 @@ class LeastFacets {
                      mixed = 0.5 * (bend(e, f) - across - along);
         const double gauss = across * along - mixed * mixed;
         bent += std::sqrt(std::abs(gauss)) / ((gauss > 0.0 ? 2.598 : 4.473) * tolerance_);
-        if (k == 0) lower += std::sqrt(std::abs(across) / room);
-        if (k + 1 == kAlong) upper += std::sqrt(std::abs(across) / room);
+        const auto row = [&](double height) {
+          const double departs =
+              ends_surface(height) ? level(piece, side, from, to, height) : std::abs(across);
+          return std::sqrt(departs / room);
+        };
+        if (k == 0) lower += row(z0);
+        if (k + 1 == kAlong) upper += row(z1);
         if (i == 0) first += std::sqrt(std::abs(along) / room);
         if (i + 1 == kAcross) last += std::sqrt(std::abs(along) / room);
       }

@@ -7,8 +7,10 @@
 #include <filesystem>
 
 #include "tests/solid/random_toothing.h"
+#include "tests/support/survey_size.h"
 #include "trueflank/design/design_file.h"
 #include "trueflank/design/kinds/train_kind.h"
+#include "trueflank/solid/measure/mesh_accuracy.h"
 #include "trueflank/solid/measure/solid_fault.h"
 #include "trueflank/solid/mesh/gear_mesh.h"
 #include "trueflank/solid/shape/bed_chamfer.h"
@@ -109,6 +111,28 @@ TEST(MeshExact, TwistedModifiedAndDisplacedTeethBoundSolidsAlsoIn32Bits) {
         part_mesh(random->part, {.tolerance_mm = 4.0 * random->tolerance_mm}).mesh;
     expect_boundary_of_a_solid(mesh);
     expect_boundary_of_a_solid(rounded_to_32_bits(mesh));
+    ++made;
+  }
+}
+
+/// Strips between rows, stretches of other numbers beside each other, breaks that cross a chamfer.
+TEST(MeshExact, TeethWithEdgeChamfersBoundSolidsAlsoIn32Bits) {
+  constexpr std::array kKinds = {test::ToothingKinds{.chamfer = true},
+                                 test::ToothingKinds{.deviation = true, .chamfer = true}};
+  int made = 0;
+  const int asked = test::survey_size(6, 24);
+  for (std::uint64_t seed = 9500; made < asked; ++seed) {
+    auto random = test::random_toothing(seed, kKinds[seed % kKinds.size()]);
+    if (!random || random->train->gears[0].profile.gear().teeth > 40) continue;
+    // wider ones are more than some of these teeth hold
+    const double module_mm = random->train->gears[0].profile.gear().normal_module_mm;
+    if (random->outline().edge_chamfer_mm > 0.1 * module_mm) continue;
+    SCOPED_TRACE(random->text);
+    const double tolerance_mm = (seed % 3 == 0 ? 0.5 : 2.0) * random->tolerance_mm;
+    const PartMesh made_mesh = part_mesh(random->part, {.tolerance_mm = tolerance_mm});
+    EXPECT_LE(measure_accuracy(made_mesh.mesh, random->part).largest_mm(), tolerance_mm);
+    expect_boundary_of_a_solid(made_mesh.mesh);
+    expect_boundary_of_a_solid(rounded_to_32_bits(made_mesh.mesh));
     ++made;
   }
 }

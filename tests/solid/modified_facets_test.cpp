@@ -174,10 +174,10 @@ TEST(ModifiedFacets, OfTeethWithModificationsOfEveryKindAreFewMoreThanTheLeast) 
 
 /// The bound is less sharp here: see docs/theory/helical-facets.md.
 TEST(ModifiedFacets, OfModifiedTeethWithChamfersAreLessThanTwiceTheLeast) {
-  expect_few(Kind::kChamfered, 2.1, 1.75);
+  expect_few(Kind::kChamfered, 1.7, 1.6);
 }
-TEST(ModifiedFacets, OfPlainTeethWithChamfersAreLessThanTwiceTheLeast) {
-  expect_few(Kind::kOnlyChamfered, 1.7, 1.7);
+TEST(ModifiedFacets, OfPlainTeethWithChamfersAreFewMoreThanTheLeast) {
+  expect_few(Kind::kOnlyChamfered, 1.5, 1.5);
 }
 
 /// One net for all teeth against rows and columns.

@@ -162,11 +162,12 @@ Level level_of(const Observations& table, const RowNumbers& patch) {
 std::map<int, double> steps_of_readings(const Observations& table,
                                         const std::vector<const PatchRows::value_type*>& patches) {
   std::map<int, std::vector<double>> values;
-  for (const auto* patch : patches)
+  for (const auto* patch : patches) {
+    const ObservationKind kind = table.rows[patch->second.front()].kind;  // of all of them
+    if (kind != ObservationKind::kProfile && kind != ObservationKind::kHelix) continue;
     for (const std::uint32_t i : patch->second)
-      if (const ObservationKind kind = table.rows[i].kind;
-          kind == ObservationKind::kProfile || kind == ObservationKind::kHelix)
-        values[patch->first[0]].push_back(table.rows[i].deviation_um);
+      values[patch->first[0]].push_back(table.rows[i].deviation_um);
+  }
   std::map<int, double> steps;
   for (auto& [kind, list] : values) {
     const auto [least, most] = std::minmax_element(list.begin(), list.end());
