@@ -9,6 +9,9 @@
 namespace trueflank::loop {
 namespace {
 
+/// A place at which something begins or jumps is no regular figure: it counts as two
+/// (chi-square 5.99 for 3.84).
+constexpr double kOfTwo = 1.56;
 /// A column of which less than this share stands beside the others does what they do.
 constexpr double kOwnShare = 1e-4;
 
@@ -80,7 +83,7 @@ PlaceProfile profile_of_place(const DriveContext& context, const Eigen::VectorXd
   const auto rather = [&](const auto& is_plainer) {
     const Tried* plainer = nullptr;
     for (const Tried& t : tried)
-      if (most - t.alone.gain <= square_more && is_plainer(t.shape) &&
+      if (most - t.alone.gain <= kOfTwo * square_more && is_plainer(t.shape) &&
           (plainer == nullptr || t.alone.gain > plainer->alone.gain))
         plainer = &t;
     if (plainer != nullptr) best = plainer;
@@ -91,9 +94,6 @@ PlaceProfile profile_of_place(const DriveContext& context, const Eigen::VectorXd
   told.shape = best->shape;
   told.coefficient = best->alone.coefficient;
   told.figures = family.figures(context, told.shape, told.coefficient);
-  // A place at which something begins or jumps is no regular figure: as for two of them
-  // (chi-square 5.99 for 3.84).
-  constexpr double kOfTwo = 1.56;
   for (const Tried& t : tried) {
     const double room = square_more - (most - t.alone.gain);
     if (room < (1.0 - kOfTwo) * square_more) continue;
