@@ -23,6 +23,14 @@ enum OnsetValue : std::size_t {
 
 constexpr std::array kOnsetPowers{1.0, 1.25, 1.5, 1.75, 2.0};
 
+/// Of these powers by square roots, which are exact and quick.
+double to_the_power(double x, double power) {
+  if (power == 1.0) return x;
+  if (power == 2.0) return x * x;
+  const double root = std::sqrt(x);
+  return power == 1.5 ? x * root : power == 1.25 ? x * std::sqrt(root) : x * root * std::sqrt(root);
+}
+
 /// Shares of the range about one, in steps that grow, and over all of it.
 std::vector<double> near_and_far_shares(const DriveContext& context, double share) {
   std::vector<double> shares;
@@ -62,7 +70,7 @@ std::vector<Parameter> onset_figures(const DriveContext& context, const DriveSha
                end = far_end(context, s);
   const std::string unit = s[kOnsetOver] == 0.0 ? "output_nm" : key_of_quantity(s[kOnsetOver]);
   const double reached =
-      amount * std::pow(way_beyond(context.share_at(s[kOnsetOver], end), s), s[kOnsetPower]);
+      amount * to_the_power(way_beyond(context.share_at(s[kOnsetOver], end), s), s[kOnsetPower]);
   return {figure_of((s[kOnsetRises] > 0.0 ? "begins_at_" : "ends_at_") + unit,
                     in_words_of_the_bench(context, s[kOnsetOver], place)),
           figure_of("slope_nm_per_" + unit,
@@ -161,11 +169,7 @@ DriveFamily unnamed_onset() {
       return;
     }
     const double beyond = way_beyond(context.share_of_range(p, s[kOnsetOver]), s);
-    c[0] = beyond > 0.0
-               ? -context.lever(p) * (s[kOnsetPower] == 1.0   ? beyond
-                                      : s[kOnsetPower] == 2.0 ? beyond * beyond
-                                                              : std::pow(beyond, s[kOnsetPower]))
-               : 0.0;
+    c[0] = beyond > 0.0 ? -context.lever(p) * to_the_power(beyond, s[kOnsetPower]) : 0.0;
   };
   f.words = [](const DriveModel&, const DriveShape& s, const DriveContext* context) {
     const std::string of = name_of_quantity(s[kOnsetOver]);
