@@ -5,6 +5,7 @@
 #include <map>
 #include <random>
 
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/drive/bench_table.h"
 #include "trueflank/loop/drive/bench_visits.h"
@@ -228,9 +229,40 @@ void lock_hold_out(BenchTable& table, bool log) {
   }
 }
 
+/// The same without what differs between a load that rises and one that falls, or dies away after a
+/// change of direction: neighbours share it, and it is no error.
+SmoothFit without_memory(const BenchTable& table, const SmoothFit& fit) {
+  constexpr std::size_t kFewestTurns = 4, kFewestRows = 48;
+  constexpr Eigen::Index kColumns = 6;
+  const auto& points = table.points;
+  std::size_t turns = 0;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    turns +=
+        points[i].way != points[i - 1].way || points[i].forward != points[i - 1].forward ? 1 : 0;
+  if (turns < kFewestTurns || points.size() < kFewestRows) return fit;
+  double most = 0.0;
+  for (const BenchPoint& p : points) most = std::max(most, p.load_nm);
+  Eigen::MatrixXd x(static_cast<Eigen::Index>(points.size()), kColumns);
+  Eigen::VectorXd left(x.rows());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const BenchPoint& p = points[i];
+    const double side = p.forward ? 1.0 : -1.0, share = p.load_nm / most;
+    const double middle = 4.0 * share * (1.0 - share);
+    x.row(static_cast<Eigen::Index>(i)) << p.way, side * p.way, middle * p.way,
+        side * middle * p.way, std::exp(-p.since_turn / 2.0), std::exp(-p.since_turn / 6.0);
+    left[static_cast<Eigen::Index>(i)] = fit.residual_nm[i] / p.sigma_nm;
+  }
+  left -= x * least_squares(x, left);
+  SmoothFit cleaned = fit;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    cleaned.residual_nm[i] = left[static_cast<Eigen::Index>(i)] * points[i].sigma_nm;
+  return cleaned;
+}
+
 }  // namespace
 
-void assign_blocks(BenchTable& table, const SmoothFit& fit) {
+void assign_blocks(BenchTable& table, const SmoothFit& whole_fit) {
+  const SmoothFit fit = without_memory(table, whole_fit);
   cut_into_set_points(table);
   const std::vector<int> set_point = set_points_of(table.points);
   bool log = false;

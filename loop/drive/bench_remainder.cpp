@@ -114,10 +114,7 @@ class Asking {
       ask("temperature", 1, levels_of(values_of(points, &BenchPoint::temperature_c), 0.0, 0.02));
     ask("direction", 1, direction);
     ask("file", 1, together(file, direction));
-    for (std::size_t i = 0; i < points.size(); ++i)
-      way.push_back(i == 0 || visit_[i] == visit_[i - 1]        ? (way.empty() ? 0 : way.back())
-                    : points[i].load_nm > points[i - 1].load_nm ? 1
-                                                                : -1);
+    for (const BenchPoint& p : points) way.push_back(p.way);
     ask("way of loading (rising or falling)", 1, together(way, direction));
     ask("load, otherwise in each direction,", 2, together(load, direction));
     ask("speed, otherwise in each direction,", 2, together(speed, direction));
@@ -464,8 +461,7 @@ class Asking {
                                                : printed("%.4g", before.speed_rpm) + " rpm");
     }
     if (q.what.front() == 'w')
-      return way + (&p == &table_.points.front() || (&p)[-1].load_nm > p.load_nm ? " falling"
-                                                                                 : " rising");
+      return way + (p.way < 0 ? " falling" : p.way > 0 ? " rising" : " at the start");
     if (q.rank == 2) return way + " at " + (q.what.front() == 's' ? speed : load);
     return way + " at " + load + " and " + speed;
   }

@@ -115,6 +115,10 @@ class TableMaker {
             .file = data_.files.empty() ? "" : data_.files.front()}});
     SmoothFit fit = smooth_fit(table_.points);
     if (leave_out_outliers(fit)) fit = smooth_fit(table_.points);
+    for (std::size_t i = 0; i < table_.points.size(); ++i) {
+      BenchPoint& p = table_.points[i];
+      p.carried_nm = (p.forward ? p.driven_nm - fit.residual_nm[i] : p.driving_nm) / model_.ratio;
+    }
     for (BenchPoint& p : table_.points)
       if (std::isnan(p.sigma_nm)) p.sigma_nm = p.forward ? fit.sigma_forward_nm : fit.sigma_backward_nm;
     assign_blocks(table_, fit);
@@ -172,6 +176,7 @@ class TableMaker {
       p.taken = so_far / std::max(1.0, rows - 1.0);
       so_far += 1.0;
     }
+    note_history(table_.points);
     turns = most > least ? (most - least) / 360.0 : 0.0;
     const auto known = [&](double BenchPoint::*value) {
       return std::none_of(table_.points.begin(), table_.points.end(),
@@ -211,6 +216,7 @@ class TableMaker {
     for (std::size_t k = 0; k < far.size(); ++k)
       if (alone(k) && again[{set_point[far[k]], fit.residual_nm[far[k]] > 0.0}] < kComesAgain)
         out.push_back(far[k]);
+    if (come_again(fit, out)) return false;
     // Many rows far off, or neighbours together, are structure and no slips.
     if (out.empty() || static_cast<double>(out.size()) >
                            std::max(1.0, kMostOutliers * static_cast<double>(table_.points.size())))
@@ -228,6 +234,21 @@ class TableMaker {
     for (auto it = out.rbegin(); it != out.rend(); ++it)
       table_.points.erase(table_.points.begin() + static_cast<std::ptrdiff_t>(*it));
     return true;
+  }
+
+  /// Several rows that lie off to one side, about as far, are what comes again: a tooth that is
+  /// damaged, a seal that sticks. Slips lie to either side, or far beyond each other.
+  [[nodiscard]] static bool come_again(const SmoothFit& fit, const std::vector<std::size_t>& out) {
+    constexpr std::size_t kSeveral = 4;
+    constexpr double kAlike = 3.0, kMost = 0.8;
+    if (out.size() < kSeveral) return false;
+    std::vector<double> size;
+    for (const std::size_t i : out) size.push_back(fit.residual_nm[i]);
+    const double middle = median(size);
+    const auto alike = std::count_if(size.begin(), size.end(), [&](double one) {
+      return one / middle > 1.0 / kAlike && one / middle < kAlike;
+    });
+    return static_cast<double>(alike) > kMost * static_cast<double>(size.size());
   }
 
   /// Set points of one direction and a sixth of its loads that deliver more than they take.
@@ -285,11 +306,16 @@ bool BenchTable::has(bool forward) const {
 
 void measure_extent(BenchTable& table) {
   double low = 1e300, high = -1e300, sum = 0.0;
-  table.least_speed_rpm = 1e300;
+  table.least_speed_rpm = table.least_load_nm = table.least_carried_nm = 1e300;
   for (const BenchPoint& p : table.points) {
     table.most_speed_rpm = std::max(table.most_speed_rpm, p.speed_rpm);
     table.least_speed_rpm = std::min(table.least_speed_rpm, p.speed_rpm);
     table.most_load_nm = std::max(table.most_load_nm, p.load_nm);
+    table.least_load_nm = std::min(table.least_load_nm, p.load_nm);
+    table.most_carried_nm = std::max(table.most_carried_nm, p.carried_nm);
+    table.least_carried_nm = std::min(table.least_carried_nm, p.carried_nm);
+    double& of_direction = table.most_carried_of[p.forward ? 1 : 0];
+    of_direction = std::max(of_direction, p.carried_nm);
     low = std::min(low, p.temperature_c);
     high = std::max(high, p.temperature_c);
     sum += p.temperature_c;

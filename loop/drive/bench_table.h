@@ -17,6 +17,9 @@ struct BenchPoint {
   double speed_rpm = 0.0;
   double driving_nm = 0.0, driven_nm = 0.0;
   double load_nm = 0.0;     ///< the driving torque as the lossless drive passes it to the input
+  /// What the output carries, as the lossless drive passes it to the input; where it is driven, of
+  /// the smooth fit, so that no row's error is in it.
+  double carried_nm = 0.0;
   double temperature_c = kNaN;
   double angle_rad = kNaN;  ///< of the input, unwrapped
   double taken = 0.0;       ///< when among the rows of its file: 0 first ... 1 last
@@ -26,6 +29,10 @@ struct BenchPoint {
   int reading = -1;
   int fold = 0;             ///< 0 locked hold-out, 1 ... 8 cross-validation
   int file = 0, line = 0;
+  int way = 0, speed_way = 0;  ///< of the load and the speed: 1 while it rises, -1 while it falls,
+                               ///< 0 before it has moved
+  int row = 0;                 ///< of its file, from 0 on, with the rows that were left out
+  int since_turn = 0;          ///< rows since the direction changed or the file began
   [[nodiscard]] DrivePoint at() const { return {forward, speed_rpm, load_nm, temperature_c}; }
 };
 
@@ -44,7 +51,9 @@ struct BenchTable {
   bool drifts = false;  ///< neighbouring set points hang together: a log, or a drifting zero
   bool has_temperature = false, has_angle = false;
   double turns = 0.0;   ///< of the input that the angles span
-  double most_speed_rpm = 0.0, least_speed_rpm = 0.0, most_load_nm = 0.0;
+  double most_speed_rpm = 0.0, least_speed_rpm = 0.0, most_load_nm = 0.0, least_load_nm = 0.0;
+  double most_carried_nm = 0.0, least_carried_nm = 0.0;
+  std::array<double, 2> most_carried_of{};  ///< backward, forward
   std::array<int, 3> levels{};  ///< distinct loads, speeds, temperatures, up to 8
   double mean_temperature_c = kNaN, temperature_span_c = 0.0;
   Impossible impossible = Impossible::kNothing;

@@ -47,4 +47,9 @@ void take_means(Eigen::VectorXd& values, const std::vector<int>& cell);
 void take_slow(Eigen::VectorXd& values, int waves);
 /// @}
 
+/// Notes of every row, in the order they were taken, whether the load rises or falls, and how long
+/// ago the direction changed. A load must move by a fortieth of the largest to have turned; a dwell
+/// at the turn is half of the way before and half of the one after.
+void note_history(std::vector<BenchPoint>& points);
+
 }  // namespace trueflank::loop

@@ -13,6 +13,7 @@
 #include "trueflank/loop/drive/drive_selection.h"
 #include "trueflank/loop/drive/exchanged_effects.h"
 #include "trueflank/loop/drive/found_drive_effects.h"
+#include "trueflank/loop/drive/place_profile.h"
 #include "trueflank/loop/result/describe.h"
 
 namespace trueflank::loop {
@@ -46,6 +47,7 @@ class DriveReport {
       selection_.move_state_to(
           DriveSelection::state_of(DriveFit(here, selection_.value_nm(), effects, FitRows::kAll)));
     }
+    const std::vector<std::vector<Parameter>> figures = figures_of_places(outcome.shared, effects);
     const DriveContext here = selection_.context();
     const DriveFit all(here, selection_.value_nm(), effects, FitRows::kAll);
     const Eigen::VectorXd left = selection_.value_nm() - all.explained_nm();
@@ -68,7 +70,7 @@ class DriveReport {
     r.structure_left_p_value = outcome.discovery.p_left;
     r.effects = describe_drive_effects({here, all, training, selection_.value_nm(), remainder,
                                         outcome.discovery.chosen, selection_.candidates(),
-                                        selection_.exchangeable()});
+                                        selection_.exchangeable(), figures});
     const bool run_leaves_less = hold_exchanged_effects(selection_, effects, r.effects);
     list_observable(outcome, r);
     r.measure_next = runs_that_separate(selection_.table(), r.effects);
@@ -90,6 +92,27 @@ class DriveReport {
     done.state = selection_.state();
     done.table = selection_.take_table();
     return done;
+  }
+
+  /// Where effects that have places may lie, and of places that explain as much one that was run.
+  [[nodiscard]] std::vector<std::vector<Parameter>> figures_of_places(
+      double shared, std::vector<DriveEffect>& effects) const {
+    std::vector<std::vector<Parameter>> figures(effects.size());
+    const DriveContext here = selection_.context();
+    for (std::size_t e = 0; e < effects.size(); ++e) {
+      if (!effects[e].family->figures) continue;
+      const DriveFit fit(here, selection_.value_nm(), effects, FitRows::kAll);
+      const double rows = static_cast<double>(selection_.table().points.size());
+      DriveOutcome sized;
+      sized.effects = effects;
+      const double noise = fit.residual_square() / std::max(1.0, rows - sized.size());
+      const double t = student_95(fit.degrees());
+      const PlaceProfile profile = profile_of_place(here, selection_.value_nm(), effects, e,
+                                                    FitRows::kAll, t * t * noise * shared);
+      effects[e].shape = profile.shape;
+      figures[e] = profile.figures;
+    }
+    return figures;
   }
 
   void list_observable(const DriveOutcome& outcome, LoopResult& r) const {

@@ -94,14 +94,42 @@ double DriveContext::temperature_coordinate(const BenchPoint& p) const {
 double DriveContext::quantity_at(double over, double coordinate) const {
   if (over == 0.0) return 0.5 * (coordinate + 1.0) * table.most_load_nm;
   if (over == 2.0) return table.mean_temperature_c + 0.5 * coordinate * table.temperature_span_c;
-  // By halving: the speed's coordinate grows with it.
+  const double most = table.most_speed_rpm, least = table.least_speed_rpm,
+               part = 0.5 * (coordinate + 1.0);
+  if (!(most > least)) return least;
+  if (least > 0.1 * most) return least + part * (most - least);
+  const double start = 0.05 * most;
+  return (start + least) * std::pow((start + most) / (start + least), part) - start;
+}
+
+double DriveContext::coordinate_of(double over, double quantity) const {
   BenchPoint p;
-  double low = table.least_speed_rpm, high = table.most_speed_rpm;
-  for (int i = 0; i < 50; ++i) {
-    p.speed_rpm = 0.5 * (low + high);
-    (speed_coordinate(p) < coordinate ? low : high) = p.speed_rpm;
-  }
-  return p.speed_rpm;
+  p.load_nm = p.speed_rpm = p.temperature_c = quantity;
+  return over == 0.0   ? load_coordinate(p)
+         : over == 1.0 ? speed_coordinate(p)
+                       : temperature_coordinate(p);
+}
+
+double DriveContext::share_of_range(const BenchPoint& p, double over) const {
+  return share_at(over, over == 0.0 ? p.carried_nm : over == 1.0 ? p.speed_rpm : p.temperature_c);
+}
+
+double DriveContext::share_at(double over, double quantity) const {
+  if (over == 0.0) return quantity / std::max(table.most_carried_nm, 1e-300);
+  if (over == 2.0)
+    return 0.5 + (quantity - table.mean_temperature_c) / std::max(table.temperature_span_c, 1e-300);
+  return (quantity - table.least_speed_rpm) /
+         std::max(table.most_speed_rpm - table.least_speed_rpm, 1e-300);
+}
+
+double DriveContext::quantity_at_share(double over, double share) const {
+  if (over == 0.0) return share * table.most_carried_nm;
+  if (over == 2.0) return table.mean_temperature_c + (share - 0.5) * table.temperature_span_c;
+  return table.least_speed_rpm + share * (table.most_speed_rpm - table.least_speed_rpm);
+}
+
+double DriveContext::least_share(double over) const {
+  return over == 0.0 ? table.least_carried_nm / std::max(table.most_carried_nm, 1e-300) : 0.0;
 }
 
 std::vector<EfficiencyCurve> mesh_curves(const DriveModel& model) {

@@ -10,6 +10,7 @@
 #include "trueflank/loop/drive/bench_table.h"
 #include "trueflank/loop/drive/drive_model.h"
 #include "trueflank/loop/result/effect_facts.h"
+#include "trueflank/loop/result/loop_result.h"
 
 namespace trueflank::loop {
 
@@ -109,6 +110,15 @@ struct DriveContext {
   [[nodiscard]] double temperature_coordinate(const BenchPoint& p) const;
   /// The other way: the load, speed or temperature (over = 0, 1, 2) at a coordinate.
   [[nodiscard]] double quantity_at(double over, double coordinate) const;
+  /// The coordinate of a load, speed or temperature.
+  [[nodiscard]] double coordinate_of(double over, double quantity) const;
+  /// 0 ... 1 from no load, from the lowest speed or temperature on to the highest, evenly. Of loads
+  /// it is what the output carries, as the lossless drive passes it to the input.
+  [[nodiscard]] double share_of_range(const BenchPoint& p, double over) const;
+  [[nodiscard]] double share_at(double over, double quantity) const;
+  [[nodiscard]] double quantity_at_share(double over, double share) const;
+  /// Of the lowest load, speed or temperature.
+  [[nodiscard]] double least_share(double over) const;
 };
 
 /// Of every mesh, in the model's order; of one mesh alone none is needed.
@@ -117,6 +127,8 @@ struct DriveContext {
 [[nodiscard]] double predicted_nm(const DriveModel& model, const EfficiencyCurve& curve,
                                   const BenchPoint& p);
 
+inline constexpr double kOverNothing = -1.0, kOverSeveral = -2.0;
+
 /// Shape values of an effect: speed, exponent, mesh, order, ...
 using DriveShape = std::vector<double>;
 
@@ -124,6 +136,7 @@ using DriveShape = std::vector<double>;
 struct DriveShapeValue {
   bool continuous = false;  ///< refined after the choice
   bool is_place = false;    ///< a place in a range (-1 ... 1), moved by sums; else a size, by factors
+  double reach = 0.3;       ///< how far a place moves at once
   std::function<std::pair<double, double>(const DriveContext&)> limits = {};  ///< where it means its name
 };
 
@@ -160,12 +173,26 @@ struct DriveFamily : EffectFacts {
   std::function<void(DriveState&, const DriveShape&, double coefficient)> into_state = {};
   /// Over which quantity alone it has a course: load, speed or temperature (0, 1, 2); empty: none.
   std::function<double(const DriveShape&)> over = {};
+  /// Of what has no course of its own but may be a piece of one: over which quantity; kOverNothing:
+  /// the same everywhere; kOverSeveral: over more than one.
+  std::function<double(const DriveShape&)> piece_over = {};
+  /// Shapes that differ in their kind alone, to be tried once a place is found; empty: there are
+  /// none.
+  std::function<std::vector<DriveShape>(const DriveShape&)> kin_shapes = {};
+  /// True of a shape that a plainer one of its kind goes before where both explain as much; empty:
+  /// none is.
+  std::function<bool(const DriveShape&)> is_odd = {};
   /// Waves per turn of the input; empty: it is none.
   std::function<double(const DriveShape&)> order = {};
   /// The shape of a wave that the spectrum proposes, the directions opposite or not; empty: it takes none.
   std::function<DriveShape(double order, bool opposite)> shape_of_wave = {};
   /// The shape of a part of the run (order 0) or of a turn, 0 ... 1, that a scan proposes; empty: it takes none.
   std::function<DriveShape(double what, double order, double begin, double length)> shape_of_spell = {};
+  /// How often per turn of the input what it holds comes again; empty: it does not, or is a wave.
+  std::function<double(const DriveShape&)> turns_per_turn = {};
+  /// The shape of what dies away from every rest on that a scan proposes; empty: it takes none.
+  std::function<DriveShape(double what, double period, double phase, double rows)> shape_of_rest =
+      {};
   /// The shape of a slow course of the run, a polynomial, that a scan proposes; empty: it takes none.
   std::function<DriveShape(double what, int degree)> shape_of_wander = {};
   /// @}
@@ -180,6 +207,23 @@ struct DriveFamily : EffectFacts {
   std::function<std::string(const DriveModel&, const DriveShape&, const DriveContext*)> words = {};
   /// Effects without a name: the shapes of the terms it is written as, in the form of drive_term_keys().
   std::function<std::vector<DriveShape>(const DriveShape&)> term_shapes = {};
+  /// Effects without a name: told as an effect of its own, not as a piece of another.
+  bool stands_alone = false;
+  /// Figures people know it by, of a shape and a coefficient: where it begins, how wide it is. One
+  /// called amplitude_nm stands for the coefficient's size.
+  std::function<std::vector<Parameter>(const DriveContext&, const DriveShape&, double coefficient)>
+      figures = {};
+  /// The whole description, of these figures with their intervals (none where there are no
+  /// figures).
+  std::function<std::string(const DriveContext&, const DriveShape&, double coefficient,
+                            const std::vector<Parameter>& figures)>
+      told = {};
+  /// Shapes that hold all that it can be: of its kind, or (nullptr) of all kinds, to be found by.
+  std::function<std::vector<DriveShape>(const DriveContext&, const DriveShape* about)> all_shapes =
+      {};
+  /// True of a place at which something was run: of shapes that explain as much it is told before
+  /// others; empty: none is.
+  std::function<bool(const DriveContext&, const DriveShape&)> was_run = {};
   /// @}
 
   /// @name How it is corrected
@@ -197,6 +241,12 @@ struct DriveEffect {
   [[nodiscard]] int columns() const { return family->columns(shape); }
   [[nodiscard]] double order() const { return family->order ? family->order(shape) : 0.0; }
 };
+
+/// An effect of a sensor as it is listed where the other side's would look the same: "torque_offset
+/// (output)".
+[[nodiscard]] inline std::string of_side(const std::string& id, const std::string& side) {
+  return id + " (" + side + ")";
+}
 
 /// The library: loss effects, sensor effects, free form. Lives as long as the program.
 [[nodiscard]] const std::vector<DriveFamily>& drive_library();

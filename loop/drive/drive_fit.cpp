@@ -259,11 +259,12 @@ void refine_drive_shapes(const DriveContext& context, const Eigen::VectorXd& val
           effects[e].shape[k] = shape;
           return DriveFit(context, value, effects, rows).residual_square();
         };
+        const double square_here = square(here);
         const double spread = round == 0 ? 1.7 : 1.25;
         double low = here / spread, high = here * spread;
         if (value_of_shape.is_place) {
-          low = here - 0.3 * (spread - 1.0);
-          high = here + 0.3 * (spread - 1.0);
+          low = here - value_of_shape.reach * (spread - 1.0);
+          high = here + value_of_shape.reach * (spread - 1.0);
         }
         if (value_of_shape.limits) {
           const auto [least, most] = value_of_shape.limits(context);
@@ -285,7 +286,9 @@ void refine_drive_shapes(const DriveContext& context, const Eigen::VectorXd& val
             at_b = square(b = high - kGolden * (high - low));
           }
         }
-        effects[e].shape[k] = 0.5 * (low + high);
+        // Of a sum that falls in steps it may end beside the lowest.
+        if (const double at_end = square(0.5 * (low + high)); at_end > square_here)
+          effects[e].shape[k] = here;
       }
     }
 }

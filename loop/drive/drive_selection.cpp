@@ -4,6 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "trueflank/loop/drive/effects/columns.h"
+#include "trueflank/loop/drive/rest_scan.h"
 #include "trueflank/loop/drive/spell_scan.h"
 #include "trueflank/loop/drive/wander_scan.h"
 #include "trueflank/loop/drive/wave_spectrum.h"
@@ -52,14 +54,16 @@ DriveOutcome DriveSelection::choose() {
   ban([&](const DriveEffect& e) { return !may_be_there(*e.family); });
   DriveOutcome outcome = settle();
   for (int courses = 0; courses < 3; ++courses) {
-    const bool spell = propose_spell(outcome);
-    if (!propose_wander(outcome) && !spell) break;
+    const bool spell = propose_spell(outcome), rest = propose_rest(outcome);
+    if (!propose_wander(outcome) && !spell && !rest) break;
     outcome = settle();
   }
   for (int waves = 0; waves < 4 && propose_wave(outcome); ++waves) outcome = settle();
   sharpen_courses(outcome);
   if (!outcome.effects.empty()) outcome = simplest_that_is_enough(std::move(outcome));
   sharpen_courses(outcome);
+  tell_as_one_form(outcome);
+  tell_as_one_place_of_a_turn(outcome);
   follow_the_run(outcome);
   drop_what_is_nothing(outcome);
   veto(outcome);
@@ -260,6 +264,23 @@ bool DriveSelection::propose_spell(const DriveOutcome& outcome) {
   const DriveFamily* host = family_with(&DriveFamily::shape_of_spell);
   return add_candidate(
       {host, host->shape_of_spell(spell.what, spell.order, spell.begin, spell.length)});
+}
+
+bool DriveSelection::propose_rest(const DriveOutcome& outcome) {
+  if (gains_power() && !losses_beside_gains_) return false;
+  constexpr double kLevel = 0.001;  // searched beside the engine's own test
+  const DriveContext here = context();
+  const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
+  std::vector<bool> left_out;
+  for (const DriveEffect& effect : outcome.effects) left_out.push_back(!effect.family->named);
+  const LikeliestRest rest = likeliest_rest(here, value_ - fit.columns() * fit.without(left_out));
+  if (!(rest.p_value < kLevel)) return false;
+  const DriveFamily* host = family_with(&DriveFamily::shape_of_rest);
+  bool any = false;
+  for (const double what : {drive_effects::kDrag, drive_effects::kFlanks})
+    any =
+        add_candidate({host, host->shape_of_rest(what, rest.period, rest.phase, rest.rows)}) || any;
+  return any;
 }
 
 bool DriveSelection::propose_wander(const DriveOutcome& outcome) {

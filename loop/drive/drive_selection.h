@@ -121,6 +121,8 @@ class DriveSelection {
   /// Where the rest moves slowly over the run as noise would not, whatever has no name left out:
   /// one candidate more.
   bool propose_wander(const DriveOutcome& outcome);
+  /// Where a loss dies away and comes again after as many rows: one candidate more.
+  bool propose_rest(const DriveOutcome& outcome);
   /// False where it is one already.
   bool add_candidate(const DriveEffect& effect);
   /// Tries the named effects in the order in which people would think of them: where the plainer
@@ -146,6 +148,18 @@ class DriveSelection {
   /// figures, leaves no more, it takes its place. The engine asks the folds, of which what stands in a short
   /// part of the run fills few.
   void sharpen_courses(DriveOutcome& outcome);
+  /// Descriptions over one quantity, and names that mend them, told as one form beside drag and
+  /// friction where that leaves no more than chance: where a loss begins, stands out or jumps.
+  struct OneForm;
+  void tell_as_one_form(DriveOutcome& outcome);
+  void add_sets_with_one_form(const OneForm& base, double over, std::vector<OneForm>& sets);
+  /// Of every kind the form over a quantity that takes most off beside these effects.
+  [[nodiscard]] std::vector<DriveEffect> likeliest_forms(const std::vector<DriveEffect>& base,
+                                                         double over) const;
+  /// Parts of one turn, and the waves that make one up, told as one place of it.
+  void tell_as_one_place_of_a_turn(DriveOutcome& outcome);
+  /// `name_is_open`: the names it stands for explain as much.
+  void exchange_effects(DriveOutcome& outcome, const OneForm& set, bool name_is_open);
   /// What follows the temperature may follow the run in which the drive grew warm: where that leaves surely
   /// less, it takes its place.
   void follow_the_run(DriveOutcome& outcome);

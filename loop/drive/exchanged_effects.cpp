@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/base/ascii_letters.h"
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/drive/found_drive_effects.h"
 #include "trueflank/loop/result/describe.h"
@@ -197,7 +198,11 @@ class Exchange {
       FoundEffect* as_told = told(effects_[e]);
       if (as_told == nullptr) continue;
       if (e == exchanged) {
-        cannot_be_told_from(*as_told, with[e].family->id);
+        if (with[e].family->id == as_told->id)
+          may_be_the_other_sensors(*as_told, with[e],
+                                   fit.coefficients()[fit.first_column(static_cast<int>(e))]);
+        else
+          cannot_be_told_from(*as_told, with[e].family->id);
         continue;
       }
       for (const Parameter& other : drive_parameters(fit, covariance, static_cast<int>(e)))
@@ -207,6 +212,18 @@ class Exchange {
           p.high = std::max(p.high, other.high);
         }
     }
+  }
+  /// One of the two sensors, and these data do not say which.
+  void may_be_the_other_sensors(FoundEffect& effect, const DriveEffect& other,
+                                double coefficient) const {
+    const std::size_t told = effect.description.size();
+    if (other.family->told)
+      effect.description += ", or " +
+                            other.family->told(selection_.context(), other.shape, coefficient, {}) +
+                            " (these data do not say which)";
+    effect.sentence = capitalised(effect.description) +
+                      effect.sentence.substr(std::min(told, effect.sentence.size()));
+    cannot_be_told_from(effect, of_side(other.family->id, other.family->side));
   }
   static void cannot_be_told_from(FoundEffect& effect, const std::string& id) {
     std::vector<std::string>& others = effect.confounded_with;

@@ -46,6 +46,9 @@ class Describer {
       if (effect.family->named) {
         found_.push_back(common(e));
         found_.back().parameters = drive_parameters(s_.all, covariance_, e);
+        if (effect.family->told)
+          found_.back().description = effect.family->told(
+              s_.context, effect.shape, s_.all.coefficients()[s_.all.first_column(e)], {});
         if (is_a_guess(found_.back()))
           take_the_name(found_.back(), e,
                         "a loss at the input of which these data do not say whether it follows "
@@ -60,6 +63,12 @@ class Describer {
           take_the_name(found_.back(), e,
                         "a change of the torque beside which more of its size is left unexplained");
         members_.push_back({e});
+        continue;
+      }
+      if (effect.family->stands_alone) {
+        found_.push_back(common(e));
+        members_.push_back({e});
+        finish_alone(found_.back(), e);
         continue;
       }
       const double order = effect.order();
@@ -214,6 +223,25 @@ class Describer {
     }
   }
 
+  /// One that is told by figures of its own: where it begins, how wide it is.
+  void finish_alone(FoundEffect& found, int e) const {
+    const DriveEffect& effect = s_.all.effects()[e];
+    const double amount = s_.all.coefficients()[s_.all.first_column(e)];
+    const std::vector<Parameter>& figures = s_.figures[static_cast<std::size_t>(e)];
+    add_terms(found.terms, e);
+    found.parameters = parameters_of_terms(found.terms, 0.0, "amplitude_nm", false);
+    for (const Parameter& figure : figures) {
+      const auto own = std::find_if(found.parameters.begin(), found.parameters.end(),
+                                    [&](const Parameter& p) { return p.name == figure.name; });
+      if (own != found.parameters.end())
+        *own = figure;
+      else
+        found.parameters.push_back(figure);
+    }
+    found.description = effect.family->told(s_.context, effect.shape, amount, figures);
+    for (Term& term : found.terms) term.text = found.description;
+  }
+
   void finish_unnamed(FoundEffect& found, double order) const {
     sort_by_size(found.terms);
     found.description = "a loss at the input ";
@@ -245,7 +273,10 @@ class Describer {
     std::string text = capitalised(found.description);
     // After the shape's values comes what it amounts to; of one without a name after its order.
     const std::size_t main = found.named ? s_.all.effects()[members.front()].shape.size() : 1;
-    if (main < found.parameters.size()) {
+    // What is told with its figures has told them.
+    const DriveFamily& first = *s_.all.effects()[members.front()].family;
+    const bool told = first.told && (found.named || first.stands_alone);
+    if (!told && main < found.parameters.size()) {
       const Parameter& p = found.parameters[main];
       const auto [name, unit] = name_and_unit(p.name);
       text += ": " + name + printed(" %.3g", p.value) + (unit.empty() ? "" : " " + unit);

@@ -23,6 +23,8 @@ struct DriveSources {
   const std::vector<DriveEffect>& candidates;
   /// id -> ids that predict as well in its place.
   const std::map<std::string, std::set<std::string>>& exchangeable;
+  /// Of the effects, in their order: figures with intervals of those that have any.
+  const std::vector<std::vector<Parameter>>& figures;
 };
 
 /// Parameters of one effect of a fit with their 95 % intervals: its shape, its amounts, the figures they hold at.

@@ -2,6 +2,7 @@
 #include "trueflank/loop/drive/spell_scan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <vector>
@@ -86,16 +87,49 @@ class Scan {
 
   /// Parts that overlap are nearly one: a tenth of them are counted, and no more than the units can
   /// make.
-  [[nodiscard]] LikeliestSpell highest() const {
-    LikeliestSpell best = best_;
-    if (units_ < kFewestUnits || !(highest_ > 0.0)) return best;
-    const double tried = std::min(0.1 * tried_, looks_ * units_ * units_);
-    best.p_value =
-        std::min(1.0, tried * std::pow(std::max(0.0, 1.0 - highest_), 0.5 * (units_ - 4.0)));
-    return best;
+  [[nodiscard]] LikeliestSpell highest() const { return highest_of(units_); }
+
+  /// What comes again with every turn changes inside a dwell: as many rows count as do not hang
+  /// together beside it.
+  [[nodiscard]] LikeliestSpell highest_in_turns() const {
+    const auto& points = context_.table.points;
+    double product = 0.0, square = 0.0, rows = 0.0, last = 0.0;
+    std::array<double, 2> sum{}, size{}, mean{};  // outside, inside
+    std::vector<std::size_t> inside(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      double after = drive_effects::place_of_spell(points[i], best_.order) - best_.begin;
+      after -= std::floor(after);
+      inside[i] = after <= best_.length ? 1 : 0;
+      if (points[i].fold == 0) continue;
+      const double column = changed_nm(context_, points[i], best_.what) / points[i].sigma_nm;
+      sum[inside[i]] += column * left_[static_cast<Eigen::Index>(i)] / points[i].sigma_nm;
+      size[inside[i]] += column * column;
+    }
+    for (const std::size_t k : {0U, 1U}) mean[k] = size[k] > 0.0 ? sum[k] / size[k] : 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (points[i].fold == 0) continue;
+      const double off = (left_[static_cast<Eigen::Index>(i)] -
+                          mean[inside[i]] * changed_nm(context_, points[i], best_.what)) /
+                         points[i].sigma_nm;
+      if (i > 0 && points[i - 1].fold != 0) product += off * last;
+      square += off * off;
+      rows += 1.0;
+      last = off;
+    }
+    const double alike = square > 0.0 ? std::clamp(product / square, 0.0, 0.99) : 0.0;
+    return highest_of(std::max(units_, rows * (1.0 - alike) / (1.0 + alike)));
   }
 
  private:
+  [[nodiscard]] LikeliestSpell highest_of(double independent) const {
+    LikeliestSpell best = best_;
+    if (independent < kFewestUnits || !(highest_ > 0.0)) return best;
+    const double tried = std::min(0.1 * tried_, looks_ * independent * independent);
+    best.p_value =
+        std::min(1.0, tried * std::pow(std::max(0.0, 1.0 - highest_), 0.5 * (independent - 4.0)));
+    return best;
+  }
+
   const DriveContext& context_;
   const Eigen::VectorXd& left_;
   double units_ = 0.0, highest_ = 0.0, tried_ = 0.0, looks_ = 0.0;
@@ -123,7 +157,7 @@ LikeliestSpell likeliest_spell_of_turns(const DriveContext& context, const Eigen
                           : member.order * context.table.turns >= kFewestTurns;
     if (seen && member.order <= kHighestOrder) scan.look_at(drive_effects::kDrag, member.order);
   }
-  return scan.highest();
+  return scan.highest_in_turns();
 }
 
 }  // namespace trueflank::loop

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/drive/effects/columns.h"
 
-#include "trueflank/base/number_text.h"
+#include <algorithm>
+#include <cmath>
 
+#include "trueflank/base/number_text.h"
+#include "trueflank/loop/drive/bench_visits.h"
 
 namespace trueflank::loop {
 
@@ -95,6 +98,84 @@ double coordinate(const DriveContext& context, const BenchPoint& p, double over)
 
 const char* name_of_quantity(double over) {
   return over == 0.0 ? "load" : over == 1.0 ? "speed" : "temperature";
+}
+
+std::string key_of_quantity(double over) {
+  return over == 0.0 ? "load_nm" : over == 1.0 ? "rpm" : "c";
+}
+
+std::string unit_of_quantity(double over) {
+  return over == 0.0 ? " N m at the input" : over == 1.0 ? " rpm" : " C";
+}
+
+std::string unit_alone(double over) { return over == 0.0 ? " N m" : over == 1.0 ? " rpm" : " C"; }
+
+Parameter figure_of(const std::string& name, double value) { return {name, value, value, value}; }
+
+std::string with_interval(const Parameter& figure, const std::string& unit) {
+  std::string text = printed("%.4g", figure.value);
+  if (figure.high > figure.low)
+    text += " (" + printed("%.4g", figure.low) + " to " + printed("%.4g", figure.high) + ")";
+  return text + unit;
+}
+
+namespace {
+
+std::vector<double> levels_of_values(std::vector<double> values) {
+  constexpr std::size_t kMost = 24;
+  constexpr double kApart = 0.02;  // of the range
+  std::sort(values.begin(), values.end());
+  const double apart = kApart * (values.back() - values.front());
+  std::vector<double> levels;
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i > 0 && values[i] - values[i - 1] > apart) {
+      levels.push_back(sum / count);
+      sum = count = 0.0;
+    }
+    sum += values[i];
+    count += 1.0;
+  }
+  levels.push_back(sum / count);
+  const double widest = values.back() - values.front();
+  // A ramp has no levels: even steps.
+  if (levels.size() >= 4 && levels.size() <= kMost) return levels;
+  levels.clear();
+  for (std::size_t k = 0; k < kMost; ++k)
+    levels.push_back(values.front() + widest * static_cast<double>(k) / (kMost - 1.0));
+  return levels;
+}
+
+}  // namespace
+
+std::vector<double> levels_run(const DriveContext& context, double over) {
+  return levels_of_values(values_of(context.table.points, over == 0.0 ? &BenchPoint::load_nm
+                                                          : over == 1.0
+                                                              ? &BenchPoint::speed_rpm
+                                                              : &BenchPoint::temperature_c));
+}
+
+std::vector<double> places_between_levels(const DriveContext& context, double over) {
+  const std::vector<double> levels =
+      over == 0.0 ? levels_of_values(values_of(context.table.points, &BenchPoint::carried_nm))
+                  : levels_run(context, over);
+  std::vector<double> places;
+  for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
+    if (k > 0) places.push_back(context.share_at(over, levels[k]));
+    places.push_back(context.share_at(over, 0.5 * (levels[k] + levels[k + 1])));
+  }
+  return places;
+}
+
+std::vector<double> growing_steps(const DriveContext& context, double first, double last) {
+  constexpr std::size_t kVeryMany = 3000;
+  const double growth = context.table.points.size() < kVeryMany ? 1.3 : 2.0;
+  std::vector<double> steps{0.0};
+  for (double step = first; step < last; step *= growth) {
+    steps.push_back(step);
+    steps.push_back(-step);
+  }
+  return steps;
 }
 
 }  // namespace trueflank::loop::drive_effects

@@ -48,6 +48,15 @@ enum What { kFlanks, kDrag, kOutputReads };
 [[nodiscard]] double changed_nm(const DriveContext& context, const BenchPoint& p, double what);
 /// 0 ... 1 over the run (order 0), or over the turn that comes so often per turn of the input.
 [[nodiscard]] double place_of_spell(const BenchPoint& p, double order);
+/// Rows since the last rest: the last change of direction (period 0), or what comes again after so
+/// many rows.
+[[nodiscard]] double rows_since_rest(const BenchPoint& p, double period, double phase);
+/// "of the input", "of order 0.5333 (planet against the carrier)".
+[[nodiscard]] std::string turn_in_words(const DriveModel& model, double order);
+/// Steps to both sides of a place, 0 first, from the first one on each larger than the one before
+/// up to the last: an interval is as fine as these. Of very many rows there are fewer.
+[[nodiscard]] std::vector<double> growing_steps(const DriveContext& context, double first,
+                                                double last);
 /// True where the rows are of one file, in the order in which they were taken, and not too few.
 [[nodiscard]] bool has_one_course(const DriveContext& context);
 
@@ -58,6 +67,22 @@ enum What { kFlanks, kDrag, kOutputReads };
 /// -1 ... 1 over load, speed or temperature (over = 0, 1, 2).
 [[nodiscard]] double coordinate(const DriveContext& context, const BenchPoint& p, double over);
 [[nodiscard]] const char* name_of_quantity(double over);
+
+/// "rpm" as keys end with it: "load_nm", "rpm", "c".
+[[nodiscard]] std::string key_of_quantity(double over);
+/// " N m at the input", " rpm", " C".
+[[nodiscard]] std::string unit_of_quantity(double over);
+/// " rpm" as it follows "per".
+[[nodiscard]] std::string unit_alone(double over);
+/// A figure whose interval is not known yet.
+[[nodiscard]] Parameter figure_of(const std::string& name, double value);
+/// "1240 rpm (1180 to 1300)".
+[[nodiscard]] std::string with_interval(const Parameter& figure, const std::string& unit);
+/// Loads, speeds or temperatures at which something was measured, from the lowest on; of very
+/// many 24.
+[[nodiscard]] std::vector<double> levels_run(const DriveContext& context, double over);
+/// Shares of the range at these levels and half way between them.
+[[nodiscard]] std::vector<double> places_between_levels(const DriveContext& context, double over);
 
 inline constexpr const char* kOfTheBench = "it is the bench's, not the drive's";
 

@@ -44,9 +44,13 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_course();
 [[nodiscard]] DriveFamily unnamed_step();
 [[nodiscard]] DriveFamily unnamed_hump();
+[[nodiscard]] DriveFamily unnamed_onset();
 [[nodiscard]] DriveFamily unnamed_change();
 [[nodiscard]] DriveFamily unnamed_drift();
 [[nodiscard]] DriveFamily unnamed_spell();
+[[nodiscard]] DriveFamily unnamed_bump();
+[[nodiscard]] DriveFamily unnamed_way();
+[[nodiscard]] DriveFamily unnamed_after_rest();
 [[nodiscard]] DriveFamily unnamed_wander();
 [[nodiscard]] DriveFamily unnamed_product();
 [[nodiscard]] DriveFamily unnamed_settling();

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+
+#include "trueflank/base/number_text.h"
 #include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/effects/registry.h"
 
@@ -25,8 +28,20 @@ DriveFamily drift(bool input) {
   f.into_state = [input](DriveState& state, const DriveShape&, double b) {
     (input ? state.input_drift_nm : state.output_drift_nm) = b;
   };
+  f.told = [input](const DriveContext&, const DriveShape&, double b,
+                   const std::vector<Parameter>&) {
+    return std::string(input ? "the input's" : "the output's") + " torque drifts: it reads " +
+           printed("%.3g", std::abs(b)) + " N m too " + (b > 0.0 ? "high" : "low") +
+           " at the end of the file if it was right at its start";
+  };
   f.not_carried = kOfTheBench;
-  f.told_from = {{"torque_offset", "the first set points again at the end"},
+  const std::string at_rest =
+      "a reading of both torques at rest with nothing on the shafts, before the run and after (the "
+      "sensor whose zero "
+      "moved drifts)";
+  f.told_from = {{of_side("torque_drift", "input"), at_rest},
+                 {of_side("torque_drift", "output"), at_rest},
+                 {"torque_offset", "the first set points again at the end"},
                  {"drag_drift", "a zero reading at rest before and after the run"},
                  {"temperature_drag", "the same set points cold and warm, temperature_c logged"}};
   return f;

@@ -62,6 +62,7 @@ DriveFamily unnamed_bend() {
     const double beyond = std::max(0.0, share_of_most(context, p) - shape[0]) / (1.0 - shape[0]);
     c[0] = beyond * context.model.ratio * context.misread(p, false);
   };
+  f.piece_over = [](const DriveShape&) { return 0.0; };
   f.words = [](const DriveModel&, const DriveShape& shape, const DriveContext* context) {
     return "as the output's torque that is read otherwise" +
            (context ? from_load_in_words(*context, shape[0]) : " from a load on") +

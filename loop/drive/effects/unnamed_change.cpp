@@ -52,6 +52,8 @@ std::string of_what(double number) {
                          : ", as a zero of the output's torque that was moved";
 }
 
+}  // namespace
+
 std::string turn_in_words(const DriveModel& model, double order) {
   std::string member;
   for (const MemberOrder& one : model.orders)
@@ -60,8 +62,6 @@ std::string turn_in_words(const DriveModel& model, double order) {
              ? "of the input"
              : "of order " + short_text(order) + (member.empty() ? "" : " (" + member + ")");
 }
-
-}  // namespace
 
 double changed_nm(const DriveContext& context, const BenchPoint& p, double number) {
   const auto what = static_cast<What>(static_cast<int>(number));
@@ -98,6 +98,36 @@ DriveFamily unnamed_spell() {
     double after = place_of_spell(p, s[1]) - s[2];
     if (s[1] != 0.0) after -= std::floor(after);
     c[0] = after >= 0.0 && after <= s[3] ? changed_nm(context, p, s[0]) : 0.0;
+  };
+  f.stands_alone = true;
+  f.turns_per_turn = [](const DriveShape& s) { return s[1]; };
+  f.all_shapes = [](const DriveContext& context, const DriveShape* about) {
+    std::vector<DriveShape> shapes;
+    if (about == nullptr || (*about)[1] == 0.0) return shapes;
+    const std::vector<double> steps = growing_steps(context, 0.0007, 0.05);
+    for (const double begin : steps)
+      for (const double end : steps)
+        if (const double length = (*about)[3] - begin + end; length > 0.0 && length < 1.0)
+          shapes.push_back({(*about)[0], (*about)[1], (*about)[2] + begin, length});
+    return shapes;
+  };
+  f.figures = [](const DriveContext&, const DriveShape& s, double amount) {
+    std::vector<Parameter> figures{figure_of("amplitude_nm", std::abs(amount))};
+    if (s[1] == 0.0) return figures;
+    figures.push_back(figure_of("order", s[1]));
+    figures.push_back(figure_of("from_deg", 360.0 * s[2]));
+    figures.push_back(figure_of("width_deg", 360.0 * s[3]));
+    return figures;
+  };
+  f.told = [](const DriveContext& context, const DriveShape& s, double amount,
+              const std::vector<Parameter>& figures) {
+    const std::string size = with_interval(figures[0], " N m") + (amount > 0.0 ? " more" : " less");
+    if (s[1] == 0.0)
+      return "a loss at the input over a part of the run" +
+             lines_between(context.table, s[2], s[2] + s[3]) + of_what(s[0]) + ": " + size;
+    return "a loss over a part of every turn " + turn_in_words(context.model, s[1]) + ": " + size +
+           ", from " + with_interval(figures[2], " degrees") + " on, for " +
+           with_interval(figures[3], " degrees") + " (a chip, a damaged tooth, a tight place?)";
   };
   f.words = [](const DriveModel& model, const DriveShape& s, const DriveContext* context) {
     if (s[1] != 0.0)

@@ -57,6 +57,13 @@ DriveFamily unnamed_form() {
   f.shape_of_wave = [](double order, bool opposite) {
     return DriveShape{0.0, 0.0, 0.0, order, opposite ? 1.0 : 0.0};
   };
+  f.piece_over = [](const DriveShape& s) {
+    if (s[3] != 0.0) return kOverSeveral;
+    double over = kOverNothing;
+    for (const std::size_t k : {0U, 1U, 2U})
+      if (s[k] != 0.0) over = over == kOverNothing ? static_cast<double>(k) : kOverSeveral;
+    return over;
+  };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& shape, double* c) {
     double value = -context.lever(p);
     if (shape[0] > 0.0) value *= legendre(static_cast<int>(shape[0]), context.load_coordinate(p));

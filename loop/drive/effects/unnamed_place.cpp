@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/base/number_text.h"
 #include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/effects/registry.h"
 
@@ -13,6 +17,120 @@ std::string place_in_words(const DriveShape& s, const DriveContext* context, con
          (s[0] == 0.0 ? " N m at the input" : s[0] == 1.0 ? " rpm" : " C");
 }
 
+/// A bell over the coordinate, a resonance, a bell over the quantity itself.
+enum HumpKind { kSmooth, kSharp, kEvenBell };
+constexpr double kHalfOfGauss = 0.8325546;  // of its width, where half is left
+
+/// Half of a resonance's width, as a share of the range: as wide as the same hump at its place.
+double half_of_resonance(const DriveContext& context, const DriveShape& s) {
+  const double by = kHalfOfGauss * s[2];
+  return 0.5 * (context.share_at(s[0], context.quantity_at(s[0], s[1] + by)) -
+                context.share_at(s[0], context.quantity_at(s[0], s[1] - by)));
+}
+
+double hump_at(const DriveContext& context, const BenchPoint& p, const DriveShape& s) {
+  if (s[3] == double(kSmooth)) {
+    const double x = (coordinate(context, p, s[0]) - s[1]) / s[2];
+    return std::exp(-x * x);
+  }
+  const double x =
+      (context.share_of_range(p, s[0]) - context.share_at(s[0], context.quantity_at(s[0], s[1]))) /
+      half_of_resonance(context, s);
+  return s[3] == double(kSharp) ? 1.0 / (1.0 + x * x) : std::exp2(-x * x);
+}
+
+std::vector<Parameter> hump_figures(const DriveContext& context, const DriveShape& s,
+                                    double amount) {
+  const std::string unit = key_of_quantity(s[0]);
+  if (s[3] != double(kSmooth)) {
+    const double half = half_of_resonance(context, s);
+    return {figure_of("at_" + unit, context.quantity_at(s[0], s[1])),
+            figure_of("half_width_" + unit,
+                      context.quantity_at_share(s[0], half) - context.quantity_at_share(s[0], 0.0)),
+            figure_of("amplitude_nm", std::abs(amount))};
+  }
+  const auto at = [&](double by) {
+    return context.quantity_at(s[0], s[1] + by * kHalfOfGauss * s[2]);
+  };
+  const double place = context.quantity_at(s[0], s[1]);
+  return {figure_of("at_" + unit, place),
+          figure_of("half_width_" + unit, 0.5 * (at(1.0) - at(-1.0))),
+          figure_of("amplitude_nm", std::abs(amount))};
+}
+
+std::string hump_told(const DriveContext&, const DriveShape& s, double amount,
+                      const std::vector<Parameter>& figures) {
+  const std::string unit = unit_of_quantity(s[0]);
+  return "a loss that is " + std::string(amount > 0.0 ? "largest" : "smallest") + " at a " +
+         name_of_quantity(s[0]) + " of " + with_interval(figures[0], unit) + ", by " +
+         with_interval(figures[2], " N m") + ", and half of that " +
+         with_interval(figures[1], unit) + " away" +
+         (s[0] == 1.0 && amount > 0.0 ? " (a resonance?)" : "");
+}
+
+std::vector<Parameter> step_figures(const DriveContext& context, const DriveShape& s,
+                                    double amount) {
+  return {figure_of("at_" + key_of_quantity(s[0]), context.quantity_at(s[0], s[1])),
+          figure_of("amplitude_nm", std::abs(amount))};
+}
+
+std::string step_told(const DriveContext&, const DriveShape& s, double amount,
+                      const std::vector<Parameter>& figures) {
+  const std::string unit = unit_of_quantity(s[0]);
+  const Parameter& at = figures[0];
+  const std::string place =
+      at.high - at.low > 0.01 * std::abs(at.value)
+          ? "between " + printed("%.4g", at.low) + " and " + printed("%.4g", at.high) + unit
+          : "of " + with_interval(at, unit);
+  const std::string size = with_interval(figures[1], " N m") + (amount > 0.0 ? " more " : " less ");
+  return "a loss that changes at once: " + size + (s[2] == 0.0 ? "from" : "up to") + " a " +
+         name_of_quantity(s[0]) + " " + place + (s[2] == 0.0 ? " on" : "");
+}
+
+/// Places about one, in steps that grow, and over the whole range.
+std::vector<double> near_and_far(const DriveContext& context, double place, double end) {
+  std::vector<double> places;
+  for (const double step : growing_steps(context, 0.0005, 0.2)) places.push_back(place + step);
+  for (int k = -38; k <= 38; ++k) places.push_back(k * end / 38.0);
+  std::erase_if(places, [&](double at) { return std::abs(at) > end; });
+  return places;
+}
+
+/// Everywhere between the ends of the range, or, to be found by, at the levels and between them.
+std::vector<DriveShape> all_places(const DriveContext& context, const DriveShape* about,
+                                   bool hump) {
+  std::vector<DriveShape> shapes;
+  for (int over = 0; over < 3; ++over) {
+    if (context.table.levels[static_cast<std::size_t>(over)] < 4) continue;
+    if (about != nullptr && (*about)[0] != double(over)) continue;
+    std::vector<double> places;
+    if (about != nullptr)
+      places = near_and_far(context, (*about)[1], 0.95);
+    else
+      for (const double share : places_between_levels(context, over))
+        places.push_back(context.coordinate_of(over, context.quantity_at_share(over, share)));
+    if (hump)
+      for (const double level : levels_run(context, over))
+        if (const double at = context.coordinate_of(over, level); std::abs(at) <= 1.0)
+          places.push_back(at);
+    std::vector<double> widths{0.05, 0.08, 0.12, 0.17, 0.24, 0.34, 0.48, 0.68};
+    if (about != nullptr && hump)
+      for (const double wider : growing_steps(context, 0.004, 0.5))
+        widths.push_back((*about)[2] * std::exp(wider));
+    std::erase_if(widths, [](double w) { return w < 0.05 || w > 0.8; });
+    for (const double place : places) {
+      if (!hump)
+        shapes.push_back({double(over), place, about == nullptr ? 0.0 : (*about)[2]});
+      else
+        for (const double kind : {double(kSmooth), double(kSharp), double(kEvenBell)}) {
+          if (about == nullptr && kind != double(kSmooth)) continue;
+          for (const double width : widths) shapes.push_back({double(over), place, width, kind});
+        }
+    }
+  }
+  return shapes;
+}
+
 /// A step at a place, or a hump about one, over load, speed or temperature (in -1 ... 1 of the range).
 DriveFamily at_a_place(bool hump) {
   DriveFamily f = without_a_name();
@@ -24,27 +142,56 @@ DriveFamily at_a_place(bool hump) {
                      .is_place = true,
                      .limits = [](const DriveContext&) { return std::pair(-0.95, 0.95); }}};
   if (hump) {
-    f.shape_names.push_back("width");
+    f.shape_names.insert(f.shape_names.end(), {"width", "kind"});
     f.shape_values.push_back(
-        {.continuous = true, .limits = [](const DriveContext&) { return std::pair(0.08, 0.8); }});
+        {.continuous = true, .limits = [](const DriveContext&) { return std::pair(0.05, 0.8); }});
+    f.shape_values.emplace_back();
+    f.kin_shapes = [](const DriveShape& s) {
+      return std::vector<DriveShape>{{s[0], s[1], s[2], double(kSmooth)},
+                                     {s[0], s[1], s[2], double(kSharp)},
+                                     {s[0], s[1], s[2], double(kEvenBell)}};
+    };
   }
   f.shapes = [hump](const DriveContext& context) {
     std::vector<DriveShape> shapes;
     for (int over = 0; over < 3; ++over) {
       if (context.table.levels[over] < 4) continue;
       for (double place : {-0.75, -0.5, -0.25, 0.05, 0.25, 0.5, 0.75}) {
-        if (!hump) shapes.push_back({double(over), place});
+        if (!hump)
+          shapes.push_back({double(over), place, 0.0});
         else
-          for (double width : {0.15, 0.35}) shapes.push_back({double(over), place, width});
+          for (double width : {0.15, 0.35}) shapes.push_back({double(over), place, width, 0.0});
       }
     }
     return shapes;
   };
-  f.evaluate = [hump](const DriveContext& context, const BenchPoint& p, const DriveShape& shape, double* c) {
-    const double x = coordinate(context, p, shape[0]) - shape[1];
-    const double size = hump ? std::exp(-x * x / (shape[2] * shape[2])) : x > 0.0 ? 1.0 : 0.0;
+  f.evaluate = [hump](const DriveContext& context, const BenchPoint& p, const DriveShape& shape,
+                      double* c) {
+    const double size = hump ? hump_at(context, p, shape)
+                        : (coordinate(context, p, shape[0]) > shape[1]) == (shape[2] == 0.0) ? 1.0
+                                                                                             : 0.0;
     c[0] = -context.lever(p) * size;
   };
+  if (!hump) {
+    f.shape_names.emplace_back("up_to_it");
+    f.shape_values.emplace_back();
+    f.kin_shapes = [](const DriveShape& s) {
+      return std::vector<DriveShape>{{s[0], s[1], 0.0}, {s[0], s[1], 1.0}};
+    };
+  }
+  f.stands_alone = true;
+  f.all_shapes = [hump](const DriveContext& context, const DriveShape* about) {
+    return all_places(context, about, hump);
+  };
+  f.figures = hump ? hump_figures : step_figures;
+  f.told = hump ? hump_told : step_told;
+  if (hump)
+    f.was_run = [](const DriveContext& context, const DriveShape& s) {
+      const std::vector<double> levels = levels_run(context, s[0]);
+      return std::any_of(levels.begin(), levels.end(), [&](double level) {
+        return std::abs(context.coordinate_of(s[0], level) - s[1]) < 1e-9;
+      });
+    };
   f.words = [hump](const DriveModel&, const DriveShape& shape, const DriveContext* context) {
     return place_in_words(shape, context, hump ? "hump" : "step");
   };

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "trueflank/loop/drive/drive_selection.h"
+#include "trueflank/loop/drive/one_form.h"
+#include "trueflank/loop/drive/place_profile.h"
+
+// Pieces over one quantity told as one form: where it begins, stands out or jumps.
+namespace trueflank::loop {
+namespace {
+
+/// More than this chance seldom adds where so many figures are saved (chi-square, one in a
+/// hundred). Pieces that were chosen among many take off more than any would.
+double by_chance(int saved) { return std::max(4.5 + 2.2 * saved, 4.0 * saved); }
+
+/// True of a description over this quantity alone.
+bool is_piece_over(const DriveEffect& effect, double over) {
+  const DriveFamily& family = *effect.family;
+  if (family.named) return false;
+  if (family.over) return family.over(effect.shape) == over;
+  return family.piece_over && family.piece_over(effect.shape) == over;
+}
+
+bool is_constant_piece(const DriveEffect& effect) {
+  return !effect.family->named && effect.family->piece_over &&
+         effect.family->piece_over(effect.shape) == kOverNothing;
+}
+
+/// What is the same everywhere, and the flanks' friction among losses over the load: nearly every
+/// bench has it.
+bool is_plain(const DriveEffect& effect, double over) {
+  const DriveFamily& family = *effect.family;
+  return family.named && effect.columns() == 1 && family.shape_values.empty() &&
+         (family.follows == "nothing" ||
+          (over == 0.0 && family.preference == 0 && family.follows == "load"));
+}
+
+/// A name of the same course: its figures may only have mended the pieces.
+bool is_named_over(const DriveEffect& effect, double over) {
+  const DriveFamily& family = *effect.family;
+  return family.named && family.preference > 0 &&
+         family.follows == (over == 0.0   ? "load"
+                            : over == 1.0 ? "speed"
+                                          : "warmth");
+}
+
+}  // namespace
+
+std::vector<DriveEffect> DriveSelection::likeliest_forms(const std::vector<DriveEffect>& base,
+                                                         double over) const {
+  const DriveContext here = context();
+  const BesideEffects beside(here, value_, base, FitRows::kTraining);
+  std::vector<DriveEffect> forms;
+  for (const DriveFamily& family : drive_library()) {
+    if (!family.all_shapes || !family.over || !may_be_there(family)) continue;
+    double most = 0.0;
+    DriveEffect best;
+    for (const DriveShape& shape : family.all_shapes(here, nullptr)) {
+      if (family.over(shape) != over) continue;
+      const double gain = beside.with({&family, shape}).gain;
+      if (gain <= most) continue;
+      most = gain;
+      best = {&family, shape};
+    }
+    if (most > 0.0)
+      for (DriveShape& shape :
+           family.kin_shapes ? family.kin_shapes(best.shape) : std::vector<DriveShape>{best.shape})
+        forms.push_back({&family, shape});
+  }
+  // A name that does the same goes before; warmth and the course of the run are asked elsewhere.
+  if (over == 2.0) return forms;
+  std::map<const DriveFamily*, std::pair<double, DriveEffect>> names;
+  for (std::size_t g = 0; g < candidates_.size(); ++g) {
+    const DriveEffect& candidate = candidates_[g];
+    if (banned_[g] || candidate.columns() != 1 || !is_named_over(candidate, over)) continue;
+    const double gain = beside.with(candidate).gain;
+    auto& [most, best] = names[candidate.family];
+    if (best.family == nullptr || gain > most) {
+      most = gain;
+      best = candidate;
+    }
+  }
+  for (const auto& [family, name] : names) forms.push_back(name.second);
+  return forms;
+}
+
+void DriveSelection::tell_as_one_form(DriveOutcome& outcome) {
+  for (const double over : {0.0, 1.0, 2.0}) {
+    const auto piece = [&](const DriveEffect& e) { return is_piece_over(e, over); };
+    const bool pieces = std::any_of(outcome.effects.begin(), outcome.effects.end(), piece);
+    // Names that make up a form together: of several that do what one form does each mends what the
+    // others do where nothing changes.
+    const auto names = std::count_if(outcome.effects.begin(), outcome.effects.end(),
+                                     [&](const DriveEffect& e) { return is_named_over(e, over); });
+    if (!pieces && (over == 2.0 || names < 2)) continue;
+    OneForm now{.effects = outcome.effects, .from = {}, .size = outcome.size()};
+    const DriveContext here = context();
+    now.square = DriveFit(here, value_, now.effects, FitRows::kTraining).residual_square();
+    std::vector<OneForm> sets;
+    for (const bool with_names : {false, true}) {
+      if (!with_names && !pieces) continue;
+      OneForm base;
+      bool any_name = false;
+      for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
+        const DriveEffect& effect = outcome.effects[e];
+        const bool name = with_names && is_named_over(effect, over);
+        any_name = any_name || name;
+        // What is plain may have mended the pieces too: it is asked anew.
+        if (piece(effect) || is_constant_piece(effect) || name || is_plain(effect, over)) continue;
+        base.effects.push_back(effect);
+        base.from.push_back(static_cast<int>(e));
+      }
+      if (with_names && !any_name) continue;
+      add_sets_with_one_form(base, over, sets);
+    }
+    double noise = now.square / std::max(1.0, outcome.rows - now.size);
+    for (const OneForm& set : sets)
+      noise = std::min(noise, set.square / std::max(1.0, outcome.rows - set.size));
+    const OneForm* best = nullptr;
+    for (const OneForm& set : sets) {
+      const int saved = now.size - set.size;
+      const double more = set.square - now.square;
+      const double room = saved > 0    ? by_chance(saved) * outcome.shared
+                          : saved == 0 ? 0.0
+                                       : 9.0 * saved;
+      if (more > noise * room) continue;
+      if (best == nullptr || set.figure(noise) < best->figure(noise)) best = &set;
+    }
+    if (best == nullptr) continue;
+    const double gain = now.figure(noise) - best->figure(noise);
+    if (!pieces) {
+      constexpr double kSurely = 6.0, kAsWell = -4.0;  // with more figures, with no more
+      const bool has_form = std::any_of(best->effects.begin(), best->effects.end(), piece);
+      if (!has_form || gain < (best->size <= now.size ? kAsWell : kSurely)) continue;
+    }
+    constexpr double kOpen = 10.0;
+    OneForm refined = *best;
+    refine_drive_shapes(context(), value_, FitRows::kTraining, refined.effects);
+    exchange_effects(outcome, refined, gain < kOpen);
+  }
+}
+
+void DriveSelection::add_sets_with_one_form(const OneForm& base, double over,
+                                            std::vector<OneForm>& sets) {
+  // A course holds what is the same everywhere too: that has names.
+  std::vector<DriveEffect> plain;
+  for (const DriveEffect& candidate : candidates_) {
+    const DriveFamily* family = candidate.family;
+    const bool taken = std::any_of(base.effects.begin(), base.effects.end(),
+                                   [&](const DriveEffect& e) { return e.family == family; });
+    if (is_plain(candidate, over) && !taken && may_be_there(*family)) plain.push_back(candidate);
+  }
+  std::vector<DriveEffect> full = base.effects;
+  full.insert(full.end(), plain.begin(), plain.end());
+  std::vector<DriveEffect> forms = likeliest_forms(full, over);
+  // Beside all that is plain a place is found, and moves little where some of it is left out.
+  for (DriveEffect& form : forms) {
+    std::vector<DriveEffect> effects = full;
+    effects.push_back(form);
+    refine_drive_shapes(context(), value_, FitRows::kTraining, effects);
+    form = effects.back();
+  }
+  forms.emplace_back();  // none at all
+  for (std::size_t which = 0; which < (std::size_t{1} << plain.size()); ++which)
+    for (const DriveEffect& form : forms) {
+      OneForm set = base;
+      for (std::size_t k = 0; k < plain.size(); ++k)
+        if ((which >> k) & 1U) {
+          set.effects.push_back(plain[k]);
+          set.from.push_back(-1);
+        }
+      if (form.family != nullptr) {
+        set.effects.push_back(form);
+        set.from.push_back(-1);
+      }
+      if (set.effects.empty()) continue;
+      const DriveContext here = context();
+      const DriveFit fit(here, value_, set.effects, FitRows::kTraining);
+      bool possible = true;
+      for (std::size_t e = 0; e < set.effects.size(); ++e) {
+        const DriveFamily& family = *set.effects[e].family;
+        const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
+        possible = possible && !(family.only_positive && !(b > 0.0)) &&
+                   !(family.plausible && !family.plausible(model_, b));
+      }
+      if (!possible) continue;
+      set.square = fit.residual_square();
+      DriveOutcome sized;
+      sized.effects = set.effects;
+      set.size = sized.size();
+      sets.push_back(std::move(set));
+    }
+}
+
+void DriveSelection::exchange_effects(DriveOutcome& outcome, const OneForm& set,
+                                      bool name_is_open) {
+  std::vector<ChosenGroup> chosen;
+  // What is new is as sure as the surest of what it stands for.
+  ChosenGroup surest;
+  std::vector<int> names;
+  for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
+    const bool kept =
+        std::find(set.from.begin(), set.from.end(), static_cast<int>(e)) != set.from.end();
+    if (kept) continue;
+    if (outcome.discovery.chosen[e].p_value <= surest.p_value) surest = outcome.discovery.chosen[e];
+    const DriveFamily* family = outcome.effects[e].family;
+    const bool told_again =
+        std::any_of(set.effects.begin(), set.effects.end(),
+                    [&](const DriveEffect& other) { return other.family == family; });
+    if (family->named && name_is_open && !told_again)
+      names.push_back(outcome.discovery.chosen[e].group);
+  }
+  for (std::size_t e = 0; e < set.effects.size(); ++e) {
+    if (set.from[e] >= 0) {
+      chosen.push_back(outcome.discovery.chosen[static_cast<std::size_t>(set.from[e])]);
+      continue;
+    }
+    add_candidate(set.effects[e]);
+    ChosenGroup group = surest;
+    group.confounded = set.effects[e].family->named ? std::vector<int>{} : names;
+    for (std::size_t g = 0; g < candidates_.size(); ++g)
+      if (candidates_[g].family == set.effects[e].family &&
+          candidates_[g].shape == set.effects[e].shape)
+        group.group = static_cast<int>(g);
+    chosen.push_back(group);
+  }
+  outcome.effects = set.effects;
+  outcome.discovery.chosen = std::move(chosen);
+  settle_after_exchange(outcome);
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/drive/place_profile.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/geometry/linear_equations.h"
+
+namespace trueflank::loop {
+namespace {
+
+/// A place at which something begins or jumps is no regular figure: it counts as two
+/// (chi-square 5.99 for 3.84).
+constexpr double kOfTwo = 1.56;
+/// A column of which less than this share stands beside the others does what they do.
+constexpr double kOwnShare = 1e-4;
+
+}  // namespace
+
+BesideEffects::BesideEffects(const DriveContext& context, const Eigen::VectorXd& value,
+                             const std::vector<DriveEffect>& effects, FitRows rows)
+    : context_(context) {
+  const auto& points = context.table.points;
+  weight_.resize(static_cast<Eigen::Index>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    weight_[static_cast<Eigen::Index>(i)] =
+        rows == FitRows::kAll || points[i].fold != 0 ? 1.0 / points[i].sigma_nm : 0.0;
+  const DriveFit fit(context, value, effects, rows);
+  Eigen::MatrixXd columns = weight_.asDiagonal() * fit.columns();
+  for (Eigen::Index c = 0; c < columns.cols(); ++c)
+    columns.col(c) /= std::max(columns.col(c).norm(), 1e-300);
+  if (columns.cols() > 0)
+    others_ = orthonormal_columns(columns);
+  else
+    others_.resize(columns.rows(), 0);
+  left_ = weight_.cwiseProduct(value);
+  left_ -= others_ * (others_.transpose() * left_);
+}
+
+BesideEffects::Alone BesideEffects::with(const DriveEffect& effect) const {
+  const auto& points = context_.table.points;
+  Eigen::VectorXd column(weight_.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    double one = 0.0;
+    if (weight_[row] > 0.0) effect.family->evaluate(context_, points[i], effect.shape, &one);
+    column[row] = weight_[row] * one;
+  }
+  const double whole = column.squaredNorm();
+  column -= others_ * (others_.transpose() * column);
+  const double own = column.squaredNorm();
+  if (!(own > kOwnShare * whole)) return {};
+  const double product = column.dot(left_);
+  return {.gain = product * product / own, .coefficient = product / own, .error_square = 1.0 / own};
+}
+
+PlaceProfile profile_of_place(const DriveContext& context, const Eigen::VectorXd& value,
+                              const std::vector<DriveEffect>& effects, std::size_t effect,
+                              FitRows rows, double square_more) {
+  const DriveFamily& family = *effects[effect].family;
+  std::vector<DriveEffect> others = effects;
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(effect));
+  const BesideEffects beside(context, value, others, rows);
+  struct Tried {
+    DriveShape shape;
+    BesideEffects::Alone alone;
+  };
+  std::vector<Tried> tried{{effects[effect].shape, beside.with(effects[effect])}};
+  std::vector<DriveShape> shapes;
+  if (family.all_shapes) shapes = family.all_shapes(context, &effects[effect].shape);
+  for (DriveShape& shape : shapes) {
+    const BesideEffects::Alone alone = beside.with({&family, shape});
+    tried.push_back({std::move(shape), alone});
+  }
+  // The same place in the same words: an amount of the other sign is another form.
+  const double sign = tried.front().alone.coefficient;
+  std::erase_if(tried, [&](const Tried& t) { return !(t.alone.coefficient * sign > 0.0); });
+  PlaceProfile told{.shape = effects[effect].shape, .coefficient = sign, .figures = {}};
+  if (tried.empty()) return told;
+  const auto less = [](const Tried& a, const Tried& b) { return a.alone.gain < b.alone.gain; };
+  const Tried* best = &*std::max_element(tried.begin(), tried.end(), less);
+  const double most = best->alone.gain;
+  const auto rather = [&](const auto& is_plainer) {
+    const Tried* plainer = nullptr;
+    for (const Tried& t : tried)
+      if (most - t.alone.gain <= kOfTwo * square_more && is_plainer(t.shape) &&
+          (plainer == nullptr || t.alone.gain > plainer->alone.gain))
+        plainer = &t;
+    if (plainer != nullptr) best = plainer;
+  };
+  if (family.was_run)
+    rather([&](const DriveShape& shape) { return family.was_run(context, shape); });
+  if (family.is_odd) rather([&](const DriveShape& shape) { return !family.is_odd(shape); });
+  told.shape = best->shape;
+  told.coefficient = best->alone.coefficient;
+  told.figures = family.figures(context, told.shape, told.coefficient);
+  for (const Tried& t : tried) {
+    const double room = square_more - (most - t.alone.gain);
+    if (room < (1.0 - kOfTwo) * square_more) continue;
+    const double half = room > 0.0 ? std::sqrt(room * t.alone.error_square) : 0.0;
+    for (const double by : {-half, 0.0, half}) {
+      const std::vector<Parameter> figures =
+          family.figures(context, t.shape, t.alone.coefficient + by);
+      for (std::size_t k = 0; k < figures.size(); ++k) {
+        told.figures[k].low = std::min(told.figures[k].low, figures[k].value);
+        told.figures[k].high = std::max(told.figures[k].high, figures[k].value);
+      }
+    }
+  }
+  return told;
+}
+
+}  // namespace trueflank::loop

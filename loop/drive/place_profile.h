@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "trueflank/loop/drive/drive_fit.h"
+
+// Where a form without a name may lie, by what every place would leave.
+namespace trueflank::loop {
+
+struct PlaceProfile {
+  DriveShape shape;  ///< the one to be told
+  double coefficient = 0.0;
+  std::vector<Parameter> figures;  ///< of the family, with 95 % intervals
+};
+
+/// All shapes of the effect are tried beside the other effects as they are: those that leave no
+/// more than `square_more` above the least are inside the interval. Of these one that was run is
+/// told before others. Guarantees: the told figures lie in their intervals. Not that the other
+/// effects' shapes are free.
+[[nodiscard]] PlaceProfile profile_of_place(const DriveContext& context,
+                                            const Eigen::VectorXd& value,
+                                            const std::vector<DriveEffect>& effects,
+                                            std::size_t effect, FitRows rows, double square_more);
+
+/// Columns beside those of other effects: what one of them more would take off.
+class BesideEffects {
+ public:
+  BesideEffects(const DriveContext& context, const Eigen::VectorXd& value,
+                const std::vector<DriveEffect>& effects, FitRows rows);
+  struct Alone {
+    double gain = 0.0;  ///< squared error, in the noise's units, that it takes off
+    double coefficient = 0.0;
+    double error_square = 0.0;  ///< of the coefficient, for a noise of 1
+  };
+  /// Of an effect of one column.
+  [[nodiscard]] Alone with(const DriveEffect& effect) const;
+  /// What the others alone leave.
+  [[nodiscard]] double square() const { return left_.squaredNorm(); }
+  /// Columns that are independent.
+  [[nodiscard]] int columns() const { return static_cast<int>(others_.cols()); }
+
+ private:
+  const DriveContext& context_;
+  Eigen::VectorXd weight_;  ///< 0 for rows not seen
+  Eigen::MatrixXd others_;  ///< orthonormal
+  Eigen::VectorXd left_;
+};
+
+}  // namespace trueflank::loop

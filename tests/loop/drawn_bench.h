@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "trueflank/loop/drive/close_drive_loop.h"
+
+// Benches drawn anew for every seed: ratio, efficiencies, loads, speeds, order of the rows and
+// noise. The drive is two numbers that lose a share of the torque; what it loses besides is a
+// function of the test. Shares no formula with trueflank/loop.
+namespace trueflank::test {
+
+enum class RowOrder { kShuffled, kUpAndDown, kRuns };
+
+/// One row as it was driven.
+struct DrawnRow {
+  bool forward = true;
+  double rpm = 0.0;
+  double output_nm = 0.0;
+  double share = 0.0;  ///< of the largest load
+  double input_turns = 0.0;
+  int row = 0;
+  int since_turn = 0;  ///< rows since the direction changed
+  int way = 0;         ///< of the load
+};
+
+class DrawnBench {
+ public:
+  DrawnBench(std::uint64_t seed, RowOrder order) : random_(seed) {
+    ratio = between(3.0, 40.0);
+    most_output_nm = 10.0 * ratio * between(0.3, 3.0);
+    forward_loss_ = between(0.01, 0.06);
+    backward_loss_ = forward_loss_ * between(1.0, 1.3);
+    noise_output_nm = 0.003 * most_output_nm;
+    noise_input_nm = 0.2 * noise_output_nm / ratio;
+    const int loads = 6 + static_cast<int>(between(0.0, 3.0)),
+              speeds = 7 + static_cast<int>(between(0.0, 4.0));
+    for (int k = 0; k < loads; ++k)
+      load_shares.push_back(0.06 + 0.94 *
+                                       (k + (k > 0 && k + 1 < loads ? between(-0.25, 0.25) : 0.0)) /
+                                       (loads - 1.0));
+    for (int k = 0; k < speeds; ++k)
+      rpm.push_back(120.0 + 2880.0 * (k + (k > 0 && k + 1 < speeds ? between(-0.25, 0.25) : 0.0)) /
+                                (speeds - 1.0));
+    lay_out(order);
+  }
+
+  [[nodiscard]] double between(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  [[nodiscard]] int whole(int low, int high) {
+    return std::uniform_int_distribution<int>(low, high)(random_);
+  }
+
+  /// Scatter of one row as a torque at the input.
+  [[nodiscard]] double scatter_nm() const { return noise_output_nm / ratio; }
+
+  /// The model that the user holds: the drive without what the test hides.
+  [[nodiscard]] loop::DriveModel model() const {
+    loop::DriveModel m;
+    m.ratio = ratio;
+    m.friction = 0.1;
+    m.meshes = {"one"};
+    const double f = 10.0 * forward_loss_, b = 10.0 * backward_loss_;
+    m.efficiency = [f, b](const std::vector<double>& mu) {
+      return loop::DriveEfficiency{1.0 - f * mu[0], 1.0 - b * mu[0]};
+    };
+    m.orders = {
+        {"input", 1.0}, {"output", 1.0 / ratio}, {"planet against the carrier", planet_order}};
+    return m;
+  }
+
+  using Loss = std::function<double(const DrawnRow&)>;
+  /// Readings with a loss at the input, a friction in place of the model's 0.1, and an error of the
+  /// output's reading.
+  [[nodiscard]] loop::BenchData data(
+      const Loss& loss_nm, double friction = 0.1,
+      const Loss& output_error_nm = [](const DrawnRow&) { return 0.0; }) {
+    std::normal_distribution<double> normal;
+    loop::BenchData data;
+    data.files = {"bench.csv"};
+    for (const DrawnRow& row : rows) {
+      const double loss = loss_nm(row), f = 1.0 - 10.0 * forward_loss_ * friction,
+                   b = 1.0 - 10.0 * backward_loss_ * friction;
+      loop::BenchRow read;
+      read.forward = row.forward;
+      read.speed_rpm = row.rpm;
+      read.input_nm =
+          (row.forward ? row.output_nm / (ratio * f) + loss : row.output_nm * b / ratio - loss) +
+          noise_input_nm * normal(random_);
+      read.output_nm = row.output_nm + output_error_nm(row) + noise_output_nm * normal(random_);
+      if (!row.forward) read.input_nm += 0.5 * noise_output_nm / ratio * normal(random_);
+      if (with_angle) read.angle_deg = 360.0 * row.input_turns;
+      read.line = row.row + 2;
+      if (read.input_nm > 0.0 && read.output_nm > 0.0) data.rows.push_back(read);
+    }
+    return data;
+  }
+
+  double ratio = 1.0, most_output_nm = 1.0, noise_output_nm = 0.0, noise_input_nm = 0.0,
+         planet_order = 0.5333;
+  bool with_angle = false;
+  std::vector<double> load_shares, rpm;
+  std::vector<DrawnRow> rows;
+
+ private:
+  void lay_out(RowOrder order) {
+    std::vector<DrawnRow> all;
+    const auto add = [&](std::vector<DrawnRow>& to, bool forward, double speed, double share) {
+      to.push_back(
+          {.forward = forward, .rpm = speed, .output_nm = share * most_output_nm, .share = share});
+    };
+    if (order == RowOrder::kShuffled)
+      for (int repeat = 0; repeat < 3; ++repeat) {
+        std::vector<DrawnRow> once;
+        for (const bool forward : {true, false})
+          for (const double speed : rpm)
+            for (const double share : load_shares) add(once, forward, speed, share);
+        std::shuffle(once.begin(), once.end(), random_);
+        all.insert(all.end(), once.begin(), once.end());
+      }
+    if (order == RowOrder::kUpAndDown)
+      for (int repeat = 0; repeat < 2; ++repeat)
+        for (const bool forward : {true, false})
+          for (const double speed : rpm) {
+            for (const double share : load_shares) add(all, forward, speed, share);
+            for (auto share = load_shares.rbegin() + 1; share != load_shares.rend(); ++share)
+              add(all, forward, speed, *share);
+          }
+    if (order == RowOrder::kRuns) {
+      const int length = whole(14, 30);
+      for (int run = 0; run < 16; ++run)
+        for (int k = 0; k < length; ++k)
+          add(all, run % 2 == 0,
+              rpm[static_cast<std::size_t>(whole(0, static_cast<int>(rpm.size()) - 1))],
+              load_shares[static_cast<std::size_t>(
+                  whole(0, static_cast<int>(load_shares.size()) - 1))]);
+    }
+    double turns = 0.0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      DrawnRow& row = all[i];
+      row.row = static_cast<int>(i);
+      turns += between(0.1, 3.0);
+      row.input_turns = turns;
+      if (i == 0) continue;
+      const DrawnRow& before = all[i - 1];
+      row.since_turn = row.forward == before.forward ? before.since_turn + 1 : 0;
+      row.way = row.share > before.share ? 1 : row.share < before.share ? -1 : 1;
+    }
+    if (!all.empty()) all.front().way = 1;
+    rows = std::move(all);
+  }
+
+  std::mt19937_64 random_;
+  double forward_loss_ = 0.0, backward_loss_ = 0.0;
+};
+
+}  // namespace trueflank::test
