@@ -43,5 +43,9 @@ void name_forms_beside_names(PartModel& model);
 /// A slope or a bow that stands beside forms which leave most of the flank alone, or run the other
 /// way, gets its name where the data do not deny it.
 void name_terms_beside_forms(PartModel& model);
+/// Ends rounded by a brush are a crowning, plating that grows at an edge is a pressure angle error,
+/// as near as one value tells. Where one form along the same direction leaves clearly less than
+/// such a name, it is told in its place. True where one was.
+bool tell_as_form_for_a_name(PartModel& model);
 
 }  // namespace trueflank::loop

@@ -13,7 +13,6 @@
 #include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/drifts.h"
 #include "trueflank/loop/gear/part/fields.h"
-#include "trueflank/loop/gear/part/form_for_a_name.h"
 #include "trueflank/loop/gear/part/forms_around.h"
 #include "trueflank/loop/gear/part/forms_of_runs.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"

@@ -15,6 +15,7 @@
 #include "trueflank/loop/gear/part/parts_of_forms.h"
 #include "trueflank/loop/gear/part/runs_along.h"
 #include "trueflank/loop/gear/part/single_teeth.h"
+#include "trueflank/loop/gear/remainder_around.h"
 
 namespace trueflank::loop {
 namespace {
