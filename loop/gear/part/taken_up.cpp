@@ -284,6 +284,15 @@ bool is_likeliest_order(PartModel& model, const Effect& wave, const std::vector<
   return both.retained(both.first_column(1)) < kOwn;
 }
 
+/// Spots that a surer form of the same tooth and flank consists of: crests of a wave.
+bool is_part_of_a_surer(const std::vector<RemainderFinding>& all, const RemainderFinding& one) {
+  return std::any_of(all.begin(), all.end(), [&](const RemainderFinding& other) {
+    return other.effect && other.local && other.effect->family != one.effect->family &&
+           other.effect->flank == one.effect->flank && other.p_value < one.p_value &&
+           other.effect->shape.front() == one.effect->shape.front();
+  });
+}
+
 /// A place on one flank (a burr) without which far more is left than chance takes out.
 bool is_spot_beyond_doubt(const PointFit& fit, std::size_t effect) {
   constexpr double kBeyondDoubt = 100.0;  // chi-square: ten standard errors
@@ -411,6 +420,7 @@ bool take_up_remainder(PartModel& model) {
     const std::vector<RemainderFinding> findings = remainder_of(model, effects, which);
     for (RemainderFinding finding : findings) {
       if (!finding.effect || finding.local != local) continue;
+      if (local && is_part_of_a_surer(findings, finding)) continue;
       // what a name says is told by its name, if the way of making can have it
       const EffectFamily& family = *finding.effect->family;
       if (family.named && !can_have(model.options.makings, family))
@@ -457,28 +467,6 @@ LeastMissed least_missed(const PartModel& model, std::size_t first, std::size_t 
     if (loss < found.loss) found = {e, loss};
   }
   return found;
-}
-
-bool drop_idle_forms(PartModel& model) {
-  constexpr double kIdle = 25.0;  // chi-square: five standard errors
-  bool any = false;
-  while (!model.given_p_values.empty()) {
-    const std::size_t first = first_told_here(model);
-    const auto [idle, loss] =
-        least_missed(model, first, model.options.given.size(), [](const Effect&) { return true; });
-    if (loss > kIdle) break;
-    model.effects.erase(model.effects.begin() + static_cast<std::ptrdiff_t>(idle));
-    model.options.given.erase(model.options.given.begin() + static_cast<std::ptrdiff_t>(idle));
-    model.given_p_values.erase(model.given_p_values.begin() +
-                               static_cast<std::ptrdiff_t>(idle - first));
-    any = true;
-  }
-  if (any) {
-    // What was banned beside them was banned for no reason.
-    model.banned = model.unseen;
-    ban_given(model);
-  }
-  return any;
 }
 
 bool drop_doubtful_orders(PartModel& model) {

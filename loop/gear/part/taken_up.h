@@ -36,8 +36,6 @@ struct LeastMissed {
 /// (chi-square).
 [[nodiscard]] LeastMissed least_missed(const PartModel& model, std::size_t first, std::size_t end,
                                        const std::function<bool(const Effect&)>& is_asked);
-/// Forms that a better one, taken up later, made idle. True where there were any.
-[[nodiscard]] bool drop_idle_forms(PartModel& model);
 /// Machine's orders are many: one that was learnt from four fifths of the data, or before the other
 /// effects, must stand out of its kind in all of the data beside these. True where one does not.
 [[nodiscard]] bool drop_doubtful_orders(PartModel& model);
