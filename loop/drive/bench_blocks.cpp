@@ -240,7 +240,7 @@ SmoothFit without_memory(const BenchTable& table, const SmoothFit& fit) {
     turns +=
         points[i].way != points[i - 1].way || points[i].forward != points[i - 1].forward ? 1 : 0;
   if (turns < kFewestTurns || points.size() < kFewestRows) return fit;
-  double most = 0.0;
+  double most = 1e-300;
   for (const BenchPoint& p : points) most = std::max(most, p.load_nm);
   Eigen::MatrixXd x(static_cast<Eigen::Index>(points.size()), kColumns);
   Eigen::VectorXd left(x.rows());

@@ -103,9 +103,7 @@ class DriveReport {
       if (!effects[e].family->figures) continue;
       const DriveFit fit(here, selection_.value_nm(), effects, FitRows::kAll);
       const double rows = static_cast<double>(selection_.table().points.size());
-      DriveOutcome sized;
-      sized.effects = effects;
-      const double noise = fit.residual_square() / std::max(1.0, rows - sized.size());
+      const double noise = fit.residual_square() / std::max(1.0, rows - size_of(effects));
       const double t = student_95(fit.degrees());
       const PlaceProfile profile = profile_of_place(here, selection_.value_nm(), effects, e,
                                                     FitRows::kAll, t * t * noise * shared);

@@ -49,6 +49,16 @@ DriveOutcome DriveSelection::run() {
   return outcome;
 }
 
+int size_of(const std::vector<DriveEffect>& effects) {
+  int size = 0;
+  for (const DriveEffect& effect : effects) {
+    size += effect.columns();
+    for (const DriveShapeValue& value : effect.family->shape_values)
+      size += value.continuous ? 1 : 0;
+  }
+  return size;
+}
+
 DriveOutcome DriveSelection::choose() {
   banned_.assign(candidates_.size(), false);
   ban([&](const DriveEffect& e) { return !may_be_there(*e.family); });
@@ -256,7 +266,7 @@ bool DriveSelection::propose_spell(const DriveOutcome& outcome) {
   for (const DriveEffect& effect : outcome.effects)
     left_out.push_back(!effect.family->shape_of_spell &&
                        (!effect.family->named || effect.order() > 0.0));
-  const Eigen::VectorXd left = value_ - fit.columns() * fit.without(left_out);
+  const Eigen::VectorXd left = left_by_names(outcome);
   const LikeliestSpell of_turns = likeliest_spell_of_turns(here, left),
                        of_run = likeliest_spell_of_run(here, left);
   const LikeliestSpell& spell = of_turns.p_value <= of_run.p_value ? of_turns : of_run;
@@ -266,14 +276,18 @@ bool DriveSelection::propose_spell(const DriveOutcome& outcome) {
       {host, host->shape_of_spell(spell.what, spell.order, spell.begin, spell.length)});
 }
 
+Eigen::VectorXd DriveSelection::left_by_names(const DriveOutcome& outcome) const {
+  const DriveFit fit(context(), value_, outcome.effects, FitRows::kTraining);
+  std::vector<bool> left_out;
+  for (const DriveEffect& effect : outcome.effects) left_out.push_back(!effect.family->named);
+  return value_ - fit.columns() * fit.without(left_out);
+}
+
 bool DriveSelection::propose_rest(const DriveOutcome& outcome) {
   if (gains_power() && !losses_beside_gains_) return false;
   constexpr double kLevel = 0.001;  // searched beside the engine's own test
   const DriveContext here = context();
-  const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
-  std::vector<bool> left_out;
-  for (const DriveEffect& effect : outcome.effects) left_out.push_back(!effect.family->named);
-  const LikeliestRest rest = likeliest_rest(here, value_ - fit.columns() * fit.without(left_out));
+  const LikeliestRest rest = likeliest_rest(here, left_by_names(outcome));
   if (!(rest.p_value < kLevel)) return false;
   const DriveFamily* host = family_with(&DriveFamily::shape_of_rest);
   bool any = false;
@@ -287,11 +301,7 @@ bool DriveSelection::propose_wander(const DriveOutcome& outcome) {
   if (gains_power() && !losses_beside_gains_) return false;
   constexpr double kLevel = 0.001;  // searched beside the engine's own test
   const DriveContext here = context();
-  const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
-  std::vector<bool> left_out;
-  for (const DriveEffect& effect : outcome.effects) left_out.push_back(!effect.family->named);
-  const LikeliestWander wander =
-      likeliest_wander(here, value_ - fit.columns() * fit.without(left_out));
+  const LikeliestWander wander = likeliest_wander(here, left_by_names(outcome));
   if (!(wander.p_value < kLevel)) return false;
   const DriveFamily* host = family_with(&DriveFamily::shape_of_wander);
   return add_candidate({host, host->shape_of_wander(wander.what, wander.degree)});

@@ -14,6 +14,9 @@
 
 namespace trueflank::loop {
 
+/// Figures that effects have together: coefficients, and the shapes that move.
+[[nodiscard]] int size_of(const std::vector<DriveEffect>& effects);
+
 /// One outcome of the engine with its shapes refined on the training rows.
 struct DriveOutcome {
   DiscoveryResult discovery;
@@ -23,15 +26,7 @@ struct DriveOutcome {
          rows = 1.0;  ///< of what it leaves of the training rows, in their noise's units
   /// Times as much as independent rows that the sums over units scatter: errors inside a unit hang together.
   double shared = 1.0;
-  [[nodiscard]] int size() const {
-    int size = 0;
-    for (const DriveEffect& effect : effects) {
-      size += effect.columns();
-      for (const DriveShapeValue& value : effect.family->shape_values)
-        size += value.continuous ? 1 : 0;
-    }
-    return size;
-  }
+  [[nodiscard]] int size() const { return size_of(effects); }
   [[nodiscard]] int preference() const {
     int sum = 0;
     for (const DriveEffect& effect : effects) sum += effect.family->preference;
@@ -123,6 +118,8 @@ class DriveSelection {
   bool propose_wander(const DriveOutcome& outcome);
   /// Where a loss dies away and comes again after as many rows: one candidate more.
   bool propose_rest(const DriveOutcome& outcome);
+  /// What these effects leave, whatever has no name left out.
+  [[nodiscard]] Eigen::VectorXd left_by_names(const DriveOutcome& outcome) const;
   /// False where it is one already.
   bool add_candidate(const DriveEffect& effect);
   /// Tries the named effects in the order in which people would think of them: where the plainer

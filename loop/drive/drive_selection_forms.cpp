@@ -188,9 +188,7 @@ void DriveSelection::add_sets_with_one_form(const OneForm& base, double over,
       }
       if (!possible) continue;
       set.square = fit.residual_square();
-      DriveOutcome sized;
-      sized.effects = set.effects;
-      set.size = sized.size();
+      set.size = size_of(set.effects);
       sets.push_back(std::move(set));
     }
 }

@@ -26,9 +26,7 @@ bool is_place_of_turn(const DriveEffect& effect, double order) {
 
 /// A part of a turn has two ends, which are no continuous values.
 int figures_of_set(const std::vector<DriveEffect>& effects) {
-  DriveOutcome sized;
-  sized.effects = effects;
-  int size = sized.size();
+  int size = size_of(effects);
   for (const DriveEffect& e : effects) size += e.family->shape_of_spell ? 2 : 0;
   return size;
 }

@@ -20,7 +20,7 @@ double centre_rad(const MadeGear& g, const FlankSpot& s) {
 
 void expect_one(const loop::LoopResult& result, const std::vector<std::string>& words) {
   for (const std::string& text : words)
-    EXPECT_TRUE(tells_of(result, text)) << text << "\n" << list(result);
+    EXPECT_TRUE(tells(result, text)) << text << "\n" << list(result);
   EXPECT_EQ(result.effects.size(), 1U) << list(result);
   EXPECT_NE(result.verdict, loop::Verdict::kNoEffect) << list(result);
 }
@@ -81,7 +81,7 @@ TEST(CrossedForm, OfOneSideStandsBesideABow) {
                6.0 * s.v * s.v - 8.0 * s.u * s.u;
       }),
       21);
-  EXPECT_TRUE(tells_of(result, "none on the other half, dying away from the root")) << list(result);
+  EXPECT_TRUE(tells(result, "none on the other half, dying away from the root")) << list(result);
   EXPECT_NE(find(result, "crowning"), nullptr) << list(result);
 }
 
@@ -95,7 +95,7 @@ TEST(CrossedForm, OfSomeTeethStandsBesideWavesWithoutAName) {
                             (s.side > 0 ? 9.0 * std::cos(march) : 7.0 * std::cos(march + 1.0));
                    }),
                    22);
-  EXPECT_TRUE(tells_of(result, "on 13 teeth from tooth 20 on, more and more")) << list(result);
+  EXPECT_TRUE(tells(result, "on 13 teeth from tooth 20 on, more and more")) << list(result);
 }
 
 TEST(CrossedForm, OfTracesOfOneSideIsOneForm) {
@@ -132,7 +132,7 @@ TEST(CrossedForm, StandsBesideNames) {
   const auto result = scanned_with(gear, form, 17);
   ASSERT_NE(find(result, "crowning"), nullptr) << list(result);
   EXPECT_NEAR(parameter(*find(result, "crowning"), "amount_um").value, 5.0, 0.5) << list(result);
-  EXPECT_TRUE(tells_of(result, "dying away from both ends of the face")) << list(result);
+  EXPECT_TRUE(tells(result, "dying away from both ends of the face")) << list(result);
   EXPECT_EQ(result.effects.size(), 3U) << "all flanks stand out by 5 um besides\n" << list(result);
 }
 
@@ -168,8 +168,8 @@ TEST(CrossedForm, OfAnOrderAtTheTipIsOppositeBesideAPlainWave) {
                6.0 * std::cos(4.0 * centre_rad(g, s) + 0.4);
       }),
       33, 4000);
-  EXPECT_TRUE(tells_of(result, "4 times per turn, dying away from the tip within")) << list(result);
-  EXPECT_TRUE(tells_of(result, "there the teeth stand counter-clockwise, most at 14 deg first"))
+  EXPECT_TRUE(tells(result, "4 times per turn, dying away from the tip within")) << list(result);
+  EXPECT_TRUE(tells(result, "there the teeth stand counter-clockwise, most at 14 deg first"))
       << list(result);
   EXPECT_EQ(result.effects.size(), 2U) << list(result);
 }
@@ -182,9 +182,9 @@ TEST(CrossedForm, OfAnOrderMayHaveAPhaseOfEachFlank) {
                             std::exp(-(1.0 - up(s.v)) / 0.25);
                    }),
                    34, 4000);
-  EXPECT_TRUE(tells_of(result, "unnamed left")) << list(result);
-  EXPECT_TRUE(tells_of(result, "unnamed right")) << list(result);
-  EXPECT_TRUE(tells_of(result, "dying away from the upper end within 2.5 mm")) << list(result);
+  EXPECT_TRUE(tells(result, "unnamed left")) << list(result);
+  EXPECT_TRUE(tells(result, "unnamed right")) << list(result);
+  EXPECT_TRUE(tells(result, "dying away from the upper end within 2.5 mm")) << list(result);
   EXPECT_EQ(result.effects.size(), 2U) << list(result);
 }
 

@@ -65,7 +65,7 @@ TEST(FewTraces, NothingHasAPlaceInADirectionThatWasNotMeasured) {
         InspectionOptions options = traced({1, 5, 9, 13, 17, 21, 25, 29}, 0.25, seed);
         (over_face ? options.profile : options.helix) = false;
         const auto result = close(gear, inspection_of(gear, {grown(ridges)}, options));
-        EXPECT_FALSE(tells_of(result, "of the flank at a diameter")) << list(result);
+        EXPECT_FALSE(tells(result, "of the flank at a diameter")) << list(result);
         EXPECT_EQ(result.effects.size(), 2U) << list(result);
         for (const auto& effect : result.effects)
           EXPECT_NEAR(parameter(effect, "amplitude_um").value, 4.0, 0.7) << list(result);
@@ -318,8 +318,8 @@ TEST(FewTraces, ASpeckOnOneTraceIsToldOfNoToothThatWasNotMeasured) {
     options.correlation = 0.0;
     options.index = options.helix = false;
     const auto result = close(spur(41), inspection_of(spur(41), {grown(speck)}, options));
-    EXPECT_TRUE(tells_of(result, "tooth 11")) << list(result);
-    EXPECT_FALSE(tells_of(result, "tooth 10") || tells_of(result, "tooth 12")) << list(result);
+    EXPECT_TRUE(tells(result, "tooth 11")) << list(result);
+    EXPECT_FALSE(tells(result, "tooth 10") || tells(result, "tooth 12")) << list(result);
   }
 }
 

@@ -183,7 +183,7 @@ TEST(GhostOrders, ThatGrowAndShrinkOnceATurnAreNotCountedBackwards) {
     options.points = 48;
     options.correlation = 0.5;
     const auto result = close(gear, inspection_of(gear, {grown(ghost)}, options));
-    EXPECT_FALSE(tells_of(result, "counted clockwise")) << list(result);
+    EXPECT_FALSE(tells(result, "counted clockwise")) << list(result);
     EXPECT_TRUE(std::any_of(result.effects.begin(), result.effects.end(), [](const auto& effect) {
       return effect.id == "ghost_order" && parameter(effect, "order").value == 44.0;
     })) << list(result);

@@ -23,7 +23,7 @@ TEST(FormForAName, EndsThatABrushRoundsAreNoCrowning) {
     });
     const auto result = closed_on_some_teeth(made, 1.2, seed);
     EXPECT_EQ(find(result, "crowning"), nullptr) << list(result);
-    EXPECT_TRUE(tells_of(result, "towards both ends")) << list(result);
+    EXPECT_TRUE(tells(result, "towards both ends")) << list(result);
   }
 }
 
@@ -34,7 +34,7 @@ TEST(FormForAName, PlatingThatGrowsAtTheTipIsNoPressureAngle) {
         grown([](auto&, const FlankSpot& s, auto&) { return 6.0 * std::exp(-(1.0 - s.u) / 0.3); });
     const auto result = closed_on_some_teeth(made, 0.8, seed);
     EXPECT_EQ(find(result, "pressure_angle_error"), nullptr) << list(result);
-    EXPECT_TRUE(tells_of(result, "towards the tip")) << list(result);
+    EXPECT_TRUE(tells(result, "towards the tip")) << list(result);
   }
 }
 

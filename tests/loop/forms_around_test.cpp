@@ -68,7 +68,7 @@ TEST(FormsAround, StandAsOneFormBesideAnEccentricityInAnIndex) {
     for (const unsigned seed : {1U, 2U, 3U}) {
       const auto result = index_of(form, 3.0, seed);
       EXPECT_EQ(result.effects.size(), 2U) << form.words << ": " << list(result);
-      EXPECT_TRUE(tells_of(result, form.words)) << form.words << ": " << list(result);
+      EXPECT_TRUE(tells(result, form.words)) << form.words << ": " << list(result);
       // (what waves left before the form stood in their place is gone)
       EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << form.words << ": " << list(result);
       const auto* found = find(result, "eccentricity");
@@ -100,13 +100,12 @@ TEST(FormsAround, StandBesideAnEccentricityAndAWaveOfThePitch) {
           std::pair(grown(drift), "from tooth 1 on, once around, the height drifts")}) {
       const auto result = result_of(form, seed);
       EXPECT_EQ(result.effects.size(), 3U) << list(result);
-      EXPECT_TRUE(tells_of(result, words)) << list(result);
+      EXPECT_TRUE(tells(result, words)) << list(result);
       EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
       ASSERT_NE(find(result, "eccentricity"), nullptr) << list(result);
       EXPECT_NEAR(parameter(*find(result, "eccentricity"), "amplitude_um").value, 4.0, 0.6)
           << list(result);
-      EXPECT_TRUE(tells_of(result, "pitch_wave") || tells_of(result, "twice per turn"))
-          << list(result);
+      EXPECT_TRUE(tells(result, "pitch_wave") || tells(result, "twice per turn")) << list(result);
     }
 }
 
@@ -114,7 +113,7 @@ TEST(FormsAround, AreNoNamesByThemselves) {
   for (const FormAround& form : kForms) {
     const auto result = index_of(form, 0.0, 5);
     EXPECT_EQ(result.effects.size(), 1U) << form.words << ": " << list(result);
-    EXPECT_TRUE(tells_of(result, form.words)) << list(result);
+    EXPECT_TRUE(tells(result, form.words)) << list(result);
     EXPECT_FALSE(has_name(result)) << list(result);
   }
 }
@@ -130,7 +129,7 @@ TEST(FormsAround, WhatAnIndexShowsStandsInPlaceOfNamesThatTracesWouldKeep) {
   const auto drift = [](auto&, const FlankSpot& s, auto&) { return kForms[1].um(s.tooth, s.side); };
   const auto result = close(
       spur(kTeeth), inspection_of(spur(kTeeth), {grown(drift), off_centre(4.0, 20.0)}, options));
-  EXPECT_TRUE(tells_of(result, kForms[1].words)) << list(result);
+  EXPECT_TRUE(tells(result, kForms[1].words)) << list(result);
   const auto* found = find(result, "eccentricity");
   ASSERT_NE(found, nullptr) << list(result);
   EXPECT_NEAR(parameter(*found, "amplitude_um").value, 4.0, 0.6) << list(result);
@@ -159,7 +158,7 @@ TEST(FormsAround, SinksOfAScanAreNoThinnerTeeth) {
   };
   const auto result =
       close(spur(36), scan_of(spur(36), {grown(sinks)}, scanned(6000, 2.0, 7)), true);
-  EXPECT_TRUE(tells_of(result, "3 hollows evenly spaced around the gear")) << list(result);
+  EXPECT_TRUE(tells(result, "3 hollows evenly spaced around the gear")) << list(result);
   EXPECT_FALSE(has_name(result)) << list(result);
   EXPECT_EQ(result.effects.size(), 1U) << list(result);
 }
@@ -172,7 +171,7 @@ TEST(FormsAround, EveryThirdToothOfAScanIsNoWaveBesideThickerTeeth) {
     const auto result = close(
         spur(27), scan_of(spur(27), {grown(third), off_centre(15.0, 30.0)}, scanned(6000, 2.5, 9)),
         true);
-    EXPECT_TRUE(tells_of(result, "one tooth in 3, from tooth " + std::to_string(first)))
+    EXPECT_TRUE(tells(result, "one tooth in 3, from tooth " + std::to_string(first)))
         << list(result);
     EXPECT_EQ(result.effects.size(), 2U) << list(result);
     EXPECT_NE(find(result, "eccentricity"), nullptr) << list(result);

@@ -19,7 +19,7 @@ loop::LoopResult scan_with(const MadeGear& gear, const Process& process, double 
 }
 
 void expect_one(const loop::LoopResult& result, const std::string& words) {
-  EXPECT_TRUE(tells_of(result, words)) << list(result);
+  EXPECT_TRUE(tells(result, words)) << list(result);
   EXPECT_EQ(result.effects.size(), 1U) << list(result);
   EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
 }
@@ -104,9 +104,9 @@ TEST(WalkingWaves, OfNoWholeNumberATurnAreOneFormOfEitherFlank) {
   InspectionOptions options = traced({}, 1.0, 9);
   options.points = 60;
   const auto result = close(gear, inspection_of(gear, {grown(chatter)}, options));
-  EXPECT_TRUE(tells_of(result, "4.58 periods a turn") || tells_of(result, "4.59 periods a turn"))
+  EXPECT_TRUE(tells(result, "4.58 periods a turn") || tells(result, "4.59 periods a turn"))
       << list(result);
-  EXPECT_TRUE(tells_of(result, "begin anew at tooth 1,")) << list(result);
+  EXPECT_TRUE(tells(result, "begin anew at tooth 1,")) << list(result);
   EXPECT_EQ(result.effects.size(), 2U) << list(result);
 }
 

@@ -29,7 +29,7 @@ TEST(FieldInThePlane, IsNoEccentricityAndNoPitchWave) {
   for (unsigned seed = 1; seed <= 2; ++seed) {
     const auto result = close(gear, scan_of(gear, {field}, scanned(9000, 1.0, seed)), true);
     EXPECT_EQ(names_in(result), 0) << list(result);
-    EXPECT_TRUE(tells_of(result, "shifted by the square of where they stand")) << list(result);
+    EXPECT_TRUE(tells(result, "shifted by the square of where they stand")) << list(result);
   }
 }
 
@@ -41,9 +41,9 @@ TEST(GrowsOverProfileTimesFace, IsOneFormAndNoTwist) {
   for (unsigned seed = 1; seed <= 2; ++seed) {
     const auto result = close(gear, scan_of(gear, {grown(cured)}, scanned(9000, 2.0, seed)), true);
     EXPECT_EQ(names_in(result), 0) << list(result);
-    EXPECT_TRUE(tells_of(result,
-                         "grows towards the root by the square, and that the more, towards the "
-                         "upper end evenly"))
+    EXPECT_TRUE(tells(result,
+                      "grows towards the root by the square, and that the more, towards the "
+                      "upper end evenly"))
         << list(result);
   }
 }
@@ -69,7 +69,7 @@ TEST(WaveThatDoesNotClose, IsNoToothAndNoDrift) {
   for (options.seed = 1; options.seed <= 2; ++options.seed) {
     const auto result = close(gear, inspection_of(gear, {grown(run_out)}, options));
     EXPECT_EQ(names_in(result), 0) << list(result);
-    EXPECT_TRUE(tells_of(result, "2.5 periods a turn")) << list(result);
+    EXPECT_TRUE(tells(result, "2.5 periods a turn")) << list(result);
   }
 }
 
@@ -82,8 +82,7 @@ TEST(TeethThatDriftAside, AreOneDriftBesideAnEccentricity) {
   const auto result = close(gear, scan_of(gear, {creeping}, scanned(12000, 2.0, 4)), true);
   EXPECT_NE(find(result, "eccentricity"), nullptr) << list(result);
   EXPECT_EQ(names_in(result), 1) << list(result);
-  EXPECT_TRUE(tells_of(result, "from tooth 1 on, once around, the teeth drift aside"))
-      << list(result);
+  EXPECT_TRUE(tells(result, "from tooth 1 on, once around, the teeth drift aside")) << list(result);
 }
 
 TEST(WaveThatChangesSignFromToothToTooth, IsNoGhostOrder) {
@@ -97,7 +96,7 @@ TEST(WaveThatChangesSignFromToothToTooth, IsNoGhostOrder) {
   options.seed = 5;
   const auto result = close(gear, inspection_of(gear, {grown(two_starts)}, options));
   EXPECT_EQ(names_in(result), 0) << list(result);
-  EXPECT_TRUE(tells_of(result, "13 periods a turn")) << list(result);
+  EXPECT_TRUE(tells(result, "13 periods a turn")) << list(result);
   EXPECT_LT(result.noise, 1.3) << list(result);
 }
 
@@ -120,11 +119,11 @@ TEST(StripWithSteepSides, IsNoCrowningOfItsFlank) {
        {std::vector{1, 9, 17, 25}, std::vector{1, 6, 11, 16, 21, 26}}) {
     const auto result = close(gear, inspection_of(gear, {grown(track)}, traced(teeth, 0.7, 6)));
     EXPECT_EQ(names_in(result), 0) << list(result);
-    EXPECT_TRUE(tells_of(result, "a strip over the face")) << list(result);
+    EXPECT_TRUE(tells(result, "a strip over the face")) << list(result);
   }
   const auto result = close(gear, scan_of(gear, {grown(track)}, scanned(9000, 1.0, 7)), true);
   EXPECT_EQ(names_in(result), 0) << list(result);
-  EXPECT_TRUE(tells_of(result, "a strip over the face")) << list(result);
+  EXPECT_TRUE(tells(result, "a strip over the face")) << list(result);
 }
 
 TEST(PatchWithAnEdge, IsOneFormOfItsFlank) {
@@ -136,7 +135,7 @@ TEST(PatchWithAnEdge, IsOneFormOfItsFlank) {
   };
   const auto result = close(gear, scan_of(gear, {grown(worn)}, scanned(9000, 1.5, 3)), true);
   EXPECT_EQ(names_in(result), 0) << list(result);
-  EXPECT_TRUE(tells_of(result, "a hollow of the flank")) << list(result);
+  EXPECT_TRUE(tells(result, "a hollow of the flank")) << list(result);
 }
 
 TEST(WavesOfOneLengthOnBothFlanks, AreNoPolynomialsBesideThem) {
@@ -146,7 +145,7 @@ TEST(WavesOfOneLengthOnBothFlanks, AreNoPolynomialsBesideThem) {
   };
   const auto result = close(gear, scan_of(gear, {grown(hobbed)}, scanned(9000, 2.0, 8)), true);
   EXPECT_EQ(result.effects.size(), 2U) << list(result);
-  EXPECT_FALSE(tells_of(result, "degree")) << list(result);
+  EXPECT_FALSE(tells(result, "degree")) << list(result);
 }
 
 }  // namespace

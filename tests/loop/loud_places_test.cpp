@@ -132,7 +132,7 @@ TEST(LoudPlaces, LouderFlanksOfASparseScanHaveNoFormOfTheirOwn) {
   std::string told;
   for (unsigned seed = 1; seed <= 4; ++seed) {
     const auto result = of_scan(gear, seed, true, teeth);
-    if (tells_of(result, "a form of its own")) told += list(result) + "\n";
+    if (tells(result, "a form of its own")) told += list(result) + "\n";
   }
   EXPECT_EQ(told, "");
 }

@@ -113,6 +113,7 @@ inline std::string list(const loop::LoopResult& result) {
   return text;
 }
 
+/// True where the answer has these words.
 inline bool tells(const loop::LoopResult& result, const std::string& words) {
   return list(result).find(words) != std::string::npos;
 }
@@ -123,11 +124,6 @@ inline bool tells_spot(const loop::LoopResult& result) {
   for (const char* words : {"a pit on the", "a lump on the", "part of the left flank", "part of the right flank"})
     if (told.find(words) != std::string::npos) return true;
   return false;
-}
-
-/// True where the answer has these words.
-inline bool tells_of(const loop::LoopResult& result, const std::string& words) {
-  return list(result).find(words) != std::string::npos;
 }
 
 /// A named effect is there, with a parameter of about this size.

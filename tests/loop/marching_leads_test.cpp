@@ -60,7 +60,7 @@ loop::LoopResult closed(const March& march, bool common_zero, unsigned seed) {
 /// Size, length and the periods a turn of a wave on these flanks.
 void expect_told(const loop::LoopResult& result, const March& march, const std::string& of) {
   EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << of << list(result);
-  EXPECT_TRUE(tells_of(result, "march from tooth to tooth")) << of << list(result);
+  EXPECT_TRUE(tells(result, "march from tooth to tooth")) << of << list(result);
   EXPECT_LE(result.effects.size(), march.side == 0 ? 2U : 1U) << of << list(result);
   for (const auto& effect : result.effects) {
     ASSERT_FALSE(effect.terms.empty()) << of << list(result);
@@ -88,7 +88,7 @@ TEST(MarchingLeads, WavesOfNoWholeNumberOfPeriodsAreOneForm) {
     if (draw % 3 == 0) march.order = std::trunc(march.order) + std::copysign(0.5, march.order);
     const auto result = closed(march, draw % 2 == 0, draw);
     expect_told(result, march, "draw " + std::to_string(draw) + ": ");
-    EXPECT_TRUE(tells_of(result, "no whole number")) << list(result);
+    EXPECT_TRUE(tells(result, "no whole number")) << list(result);
   }
 }
 
@@ -105,7 +105,7 @@ TEST(MarchingLeads, OfEverySecondToothNoOrderIsTold) {
       inspection_of(gear, {grown([&](auto&, const FlankSpot& s, auto&) { return at(march, s); })},
                     traced(teeth, 0.7, 1)));
   EXPECT_NE(result.verdict, loop::Verdict::kNoEffect) << list(result);
-  EXPECT_FALSE(tells_of(result, "march from tooth to tooth")) << list(result);
+  EXPECT_FALSE(tells(result, "march from tooth to tooth")) << list(result);
 }
 
 }  // namespace

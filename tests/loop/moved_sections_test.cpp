@@ -47,9 +47,9 @@ TEST(SectionsInWaves, AreNoTiltAndNoLayerShift) {
         close(gear, scan_of(gear, {wave(4.0)}, scanned(7000, 2.0, 2)), true)}) {
     EXPECT_FALSE(has_name(result)) << list(result);
     ASSERT_EQ(result.effects.size(), 1U) << list(result);
-    EXPECT_TRUE(tells_of(result, "whole sections stand aside in waves over the height"))
+    EXPECT_TRUE(tells(result, "whole sections stand aside in waves over the height"))
         << list(result);
-    EXPECT_TRUE(tells_of(result, "towards 4")) << list(result);
+    EXPECT_TRUE(tells(result, "towards 4")) << list(result);
     EXPECT_NEAR(parameter(result.effects[0], "amplitude_um").value, 15.0, 0.6);
   }
 }
@@ -63,7 +63,7 @@ TEST(SectionsInWaves, ThatTurnAreOneForm) {
   const auto result = close(gear, scan_of(gear, {turns}, scanned(7000, 2.0, 3)), true);
   EXPECT_FALSE(has_name(result)) << list(result);
   ASSERT_EQ(result.effects.size(), 1U) << list(result);
-  EXPECT_TRUE(tells_of(result, "all around, clockwise with the height")) << list(result);
+  EXPECT_TRUE(tells(result, "all around, clockwise with the height")) << list(result);
 }
 
 TEST(SectionsInWaves, LeaveATiltAndAHelixErrorTheirNames) {
@@ -114,11 +114,10 @@ TEST(KinkOfTheAxis, IsOneFormAndNoTiltWobbleOrLayerShift) {
             close(gear, scan_of(gear, {leans}, scanned(7000, 2.0, 12)), true)}) {
         EXPECT_FALSE(has_name(result)) << list(result);
         ASSERT_EQ(result.effects.size(), 1U) << list(result);
-        EXPECT_TRUE(tells_of(result, "the axis of the teeth has a kink at a height of"))
+        EXPECT_TRUE(tells(result, "the axis of the teeth has a kink at a height of"))
             << list(result);
-        EXPECT_TRUE(tells_of(result, up ? "straight below it" : "straight above it"))
-            << list(result);
-        EXPECT_TRUE(tells_of(result, "towards 1")) << list(result);
+        EXPECT_TRUE(tells(result, up ? "straight below it" : "straight above it")) << list(result);
+        EXPECT_TRUE(tells(result, "towards 1")) << list(result);
         const auto& kink = result.effects[0];
         EXPECT_NEAR(parameter(kink, "amplitude_um").value, 22.0, 1.0) << list(result);
       }
@@ -138,7 +137,7 @@ TEST(KinkOfTheAxis, LeavesATiltALayerShiftAndABowWhatTheyAre) {
          {close(gear, inspection_of(gear, {process}, of_all_teeth(1.5, 13))),
           close(gear, scan_of(gear, {process}, scanned(7000, 2.0, 14)), true)}) {
       EXPECT_EQ(result.effects.size(), 1U) << list(result);
-      EXPECT_TRUE(tells_of(result, words)) << list(result);
+      EXPECT_TRUE(tells(result, words)) << list(result);
     }
 }
 
@@ -151,8 +150,8 @@ TEST(FootOfOneSide, IsOneFormAndNoFoot) {
   const auto result = close(gear, scan_of(gear, {foot}, scanned(9000, 1.5, 1)), true);
   EXPECT_FALSE(has_name(result)) << list(result);
   ASSERT_EQ(result.effects.size(), 1U) << list(result);
-  EXPECT_TRUE(tells_of(result, "dies away from the lower end within")) << list(result);
-  EXPECT_TRUE(tells_of(result, "most on the teeth towards 11")) << list(result);
+  EXPECT_TRUE(tells(result, "dies away from the lower end within")) << list(result);
+  EXPECT_TRUE(tells(result, "most on the teeth towards 11")) << list(result);
   EXPECT_NEAR(parameter(result.effects[0], "amplitude_um").value, 20.0, 1.0);
 }
 
@@ -165,7 +164,7 @@ TEST(FootOfOneSide, BesideAFootOfAllTeethLeavesItItsName) {
   const auto result = close(gear, scan_of(gear, {feet}, scanned(9000, 1.5, 2)), true);
   EXPECT_EQ(result.effects.size(), 2U) << list(result);
   ASSERT_NE(find(result, "elephant_foot"), nullptr) << list(result);
-  EXPECT_TRUE(tells_of(result, "dies away from the lower end within")) << list(result);
+  EXPECT_TRUE(tells(result, "dies away from the lower end within")) << list(result);
 }
 
 TEST(PlayOfAnAxis, IsOneFormAndLeavesAPressureAngleItsName) {
@@ -178,7 +177,7 @@ TEST(PlayOfAnAxis, IsOneFormAndLeavesAPressureAngleItsName) {
        {close(gear, inspection_of(gear, {play, leans}, of_all_teeth(1.0, 1))),
         close(gear, scan_of(gear, {play, leans}, scanned(7000, 1.5, 1)), true)}) {
     EXPECT_EQ(result.effects.size(), 2U) << list(result);
-    EXPECT_TRUE(tells_of(result, "displaced along x")) << list(result);
+    EXPECT_TRUE(tells(result, "displaced along x")) << list(result);
     EXPECT_NE(find(result, "pressure_angle_error"), nullptr) << list(result);
   }
 }

@@ -11,7 +11,7 @@
 namespace trueflank::test {
 namespace {
 
-bool tells_of(const loop::LoopResult& result, const std::string& words) {
+bool tells(const loop::LoopResult& result, const std::string& words) {
   return list(result).find(words) != std::string::npos;
 }
 
@@ -26,13 +26,13 @@ TEST(OppositeForms, LeaveAHelixErrorItsName) {
     const auto traced_s =
         close(gear, inspection_of(gear, {grown(leaning_s)}, traced({1, 4, 7, 10, 13, 16}, 1.8, 1)));
     ASSERT_NE(find(traced_s, "helix_error"), nullptr) << list(traced_s);
-    EXPECT_TRUE(tells_of(traced_s, "S-shaped over the face, opposite")) << list(traced_s);
+    EXPECT_TRUE(tells(traced_s, "S-shaped over the face, opposite")) << list(traced_s);
     const auto scanned_bow =
         close(gear, scan_of(gear, {grown(leaning_bow)}, scanned(6000, 1.5, 2)), true);
     ASSERT_NE(find(scanned_bow, "helix_error"), nullptr) << list(scanned_bow);
     EXPECT_NEAR(std::abs(parameter(*find(scanned_bow, "helix_error"), "slope_um").value), 8.0, 0.4)
         << list(scanned_bow);
-    EXPECT_TRUE(tells_of(scanned_bow, "crowned over the face, opposite")) << list(scanned_bow);
+    EXPECT_TRUE(tells(scanned_bow, "crowned over the face, opposite")) << list(scanned_bow);
   }
 }
 
@@ -88,7 +88,7 @@ TEST(FormsOfOneFlank, LeaveWhatTheOtherFlankShowsItsName) {
       ASSERT_NE(find(*result, "crowning"), nullptr) << list(*result);
       expect_size(*result, "crowning", "amount_um", 5.0, 0.35);
       EXPECT_EQ(find(*result, "crowning")->flank, "both") << list(*result);
-      EXPECT_TRUE(tells_of(*result, "towards the upper end, within")) << list(*result);
+      EXPECT_TRUE(tells(*result, "towards the upper end, within")) << list(*result);
     }
     const auto profile = close(gear, inspection_of(gear, {grown(bent)}, options));
     ASSERT_NE(find(profile, "tip_relief"), nullptr) << list(profile);
@@ -116,7 +116,7 @@ TEST(SectorsThatLean, LeaveATaperItsName) {
   };
   const auto result = close(gear, inspection_of(gear, {grown(leaning)}, traced({}, 1.0, 1)));
   expect_size(result, "taper", "slope_um", -12.0, 0.6);
-  EXPECT_TRUE(tells_of(result, "a sector of 8 teeth from tooth 9 on leans")) << list(result);
+  EXPECT_TRUE(tells(result, "a sector of 8 teeth from tooth 9 on leans")) << list(result);
 }
 
 TEST(HeightsThatChange, LeaveAReliefItsName) {
@@ -146,7 +146,7 @@ TEST(NamesWithAPlace, StandBesideARiseInsteadOfTwoThatUndoEachOther) {
   // (other errors may leave a bow beside a curve, which has a value less)
   const auto result = close(gear, inspection_of(gear, {grown(filled)}, traced({1, 8, 15}, 1.6, 2)));
   expect_size(result, "tip_relief", "amount_um", 12.0, 1.5);
-  EXPECT_TRUE(tells_of(result, "towards the root, within")) << list(result);
+  EXPECT_TRUE(tells(result, "towards the root, within")) << list(result);
   EXPECT_EQ(result.effects.size(), 2U) << list(result);
 }
 
@@ -162,7 +162,7 @@ TEST(FormsOfSomeTeeth, AGrooveIsOneFormBesideACrowning) {
     options.points = 60;
     const auto result = close(gear, inspection_of(gear, {grown(worn)}, options));
     expect_size(result, "profile_crowning", "amount_um", 5.0, 0.2);
-    EXPECT_TRUE(tells_of(result, "on 8 teeth from tooth 29 on, a groove over the profile"))
+    EXPECT_TRUE(tells(result, "on 8 teeth from tooth 29 on, a groove over the profile"))
         << list(result);
     EXPECT_EQ(result.effects.size(), 2U) << list(result);
   }
@@ -178,7 +178,7 @@ TEST(FormsOfSomeTeeth, ARidgeIsNoSectorAndNoSpots) {
   const auto cloud = close(gear, scan_of(gear, {grown(ridged)}, scanned(9000, 1.5, 2)), true);
   for (const loop::LoopResult* result : {&lines, &cloud}) {
     expect_size(*result, "crowning", "amount_um", 6.0, 0.3);
-    EXPECT_TRUE(tells_of(*result, "on 3 teeth from tooth 12 on, a ridge over the face"))
+    EXPECT_TRUE(tells(*result, "on 3 teeth from tooth 12 on, a ridge over the face"))
         << list(*result);
     EXPECT_FALSE(tells_spot(*result)) << list(*result);
     EXPECT_EQ(result->effects.size(), 2U) << list(*result);

@@ -43,7 +43,7 @@ TEST(NamesOfWholeGears, AScaleBesideAHollowFromEndToEnd) {
   add_tips(gear, kPercent, scan);
   const auto result = close(gear, scan, true);
   expect_size(result, "scale", "percent", kPercent, 0.01);
-  EXPECT_TRUE(tells_of(result, "a hollow over the face from end to end, most at a height of 6"))
+  EXPECT_TRUE(tells(result, "a hollow over the face from end to end, most at a height of 6"))
       << list(result);
   EXPECT_EQ(result.effects.size(), 2U) << list(result);
   EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
@@ -62,7 +62,7 @@ TEST(NamesOfWholeGears, ReliefsBesideTeethThatStandAside) {
     };
     const auto result = close(gear, scan_of(gear, {both}, scanned(9000, 1.8, 4)), true);
     expect_size(result, "tip_relief", "amount_um", 11.6, 0.6);
-    EXPECT_TRUE(tells_of(result, "8 teeth from tooth 11 on stand aside")) << list(result);
+    EXPECT_TRUE(tells(result, "8 teeth from tooth 11 on stand aside")) << list(result);
     EXPECT_EQ(result.effects.size(), 2U) << list(result);
   }
 }
@@ -116,7 +116,7 @@ TEST(NamesOfWholeGears, AScaleAndALeadBesideDirtOnOneSide) {
       close(gear, scan_of(gear, {scaled(kPercent), grown(dirt)}, scanned(11000, 2.5, 10)), true);
   expect_size(result, "scale", "percent", kPercent, 0.01);
   expect_size(result, "helix_error", "slope_um", -20.8, 0.6);
-  EXPECT_TRUE(tells_of(result, "flanks that face towards 251 deg stand out")) << list(result);
+  EXPECT_TRUE(tells(result, "flanks that face towards 251 deg stand out")) << list(result);
 }
 
 }  // namespace

@@ -28,8 +28,8 @@ TEST(ToothAskew, IsOneLeanOfItsTwoFlanksInScansAndTraces) {
     const auto scanned_one =
         close(gear, scan_of(gear, {grown(askew)}, scanned(8000, 1.0, seed)), true);
     EXPECT_EQ(scanned_one.effects.size(), 1U) << list(scanned_one);
-    EXPECT_TRUE(tells_of(
-        scanned_one, "tooth 7 alone leans over the face: the upper end stands counter-clockwise"))
+    EXPECT_TRUE(tells(scanned_one,
+                      "tooth 7 alone leans over the face: the upper end stands counter-clockwise"))
         << list(scanned_one);
   }
   InspectionOptions options;
@@ -37,8 +37,8 @@ TEST(ToothAskew, IsOneLeanOfItsTwoFlanksInScansAndTraces) {
   options.noise_um = 1.0;
   options.seed = 3;
   const auto traced_one = close(gear, inspection_of(gear, {grown(askew)}, options));
-  EXPECT_TRUE(tells_of(traced_one,
-                       "tooth 7 alone leans over the face: the upper end stands counter-clockwise"))
+  EXPECT_TRUE(tells(traced_one,
+                    "tooth 7 alone leans over the face: the upper end stands counter-clockwise"))
       << list(traced_one);
 }
 
@@ -53,8 +53,8 @@ TEST(ToothAskew, OfManyIsNoSectorsThatUndoEachOther) {
   for (options.seed = 9; options.seed <= 10; ++options.seed) {
     const auto result = close(gear, inspection_of(gear, {grown(askew)}, options));
     EXPECT_NE(find(result, "crowning"), nullptr) << list(result);
-    EXPECT_TRUE(tells_of(result, "tooth 41 alone leans over the face")) << list(result);
-    EXPECT_FALSE(tells_of(result, "sector")) << list(result);
+    EXPECT_TRUE(tells(result, "tooth 41 alone leans over the face")) << list(result);
+    EXPECT_FALSE(tells(result, "sector")) << list(result);
   }
 }
 
@@ -73,8 +73,8 @@ TEST(RunsOfTeeth, OfEitherFlankAreOneFormEach) {
       };
       const auto result = close(gear, inspection_of(gear, {grown(stand_out)}, options));
       EXPECT_EQ(result.effects.size(), 2U) << list(result);
-      EXPECT_TRUE(tells_of(result, "a sector of 4 teeth from tooth 3 on")) << list(result);
-      EXPECT_TRUE(tells_of(result, "a sector of 3 teeth from tooth 20 on")) << list(result);
+      EXPECT_TRUE(tells(result, "a sector of 4 teeth from tooth 3 on")) << list(result);
+      EXPECT_TRUE(tells(result, "a sector of 3 teeth from tooth 20 on")) << list(result);
     }
 }
 
@@ -86,7 +86,7 @@ TEST(FlankThatLeansOverItsProfile, IsNoHeightAndNoSpots) {
     };
     const auto result = close(gear, scan_of(gear, {grown(leans)}, scanned(6000, 1.0, 4)), true);
     EXPECT_EQ(result.effects.size(), 1U) << list(result);
-    EXPECT_TRUE(tells_of(result, "tooth 5 alone leans over the profile")) << list(result);
+    EXPECT_TRUE(tells(result, "tooth 5 alone leans over the profile")) << list(result);
   }
 }
 
@@ -96,7 +96,7 @@ TEST(ToothCrownedByItself, IsOneBow) {
     return is_on(s, 11) ? -8.0 * s.v * s.v : 0.0;
   };
   const auto result = close(gear, scan_of(gear, {grown(crowned)}, scanned(9000, 1.0, 5)), true);
-  EXPECT_TRUE(tells_of(result, "tooth 11 alone is bowed over the face")) << list(result);
+  EXPECT_TRUE(tells(result, "tooth 11 alone is bowed over the face")) << list(result);
   EXPECT_FALSE(tells_spot(result)) << list(result);
 }
 
@@ -110,7 +110,7 @@ TEST(StylusThatSlips, IsAStepOfOneTrace) {
   options.noise_um = 0.8;
   options.seed = 6;
   const auto result = close(gear, inspection_of(gear, {grown(slipped)}, options));
-  EXPECT_TRUE(tells_of(result, "on tooth 9 alone, a step over the face")) << list(result);
+  EXPECT_TRUE(tells(result, "on tooth 9 alone, a step over the face")) << list(result);
   EXPECT_FALSE(tells_spot(result)) << list(result);
 }
 
@@ -122,8 +122,8 @@ TEST(GrooveOfASector, IsNoGrooveOfAllTeeth) {
                : 0.0;
   };
   const auto result = close(gear, scan_of(gear, {grown(worn)}, scanned(9000, 1.0, 7)), true);
-  EXPECT_TRUE(tells_of(result, "on 14 teeth from tooth 12 on, a groove")) << list(result);
-  EXPECT_FALSE(tells_of(result, "the same on every tooth, a groove")) << list(result);
+  EXPECT_TRUE(tells(result, "on 14 teeth from tooth 12 on, a groove")) << list(result);
+  EXPECT_FALSE(tells(result, "the same on every tooth, a groove")) << list(result);
 }
 
 TEST(WavesOfSomeTeeth, AreOneFormOnThese) {
@@ -136,7 +136,7 @@ TEST(WavesOfSomeTeeth, AreOneFormOnThese) {
     const auto result =
         close(gear, scan_of(gear, {grown(supported)}, scanned(8000, 1.2, 21)), true);
     EXPECT_EQ(result.effects.size(), 1U) << list(result);
-    EXPECT_TRUE(tells_of(
+    EXPECT_TRUE(tells(
         result, "on " + std::to_string(count) + " teeth from tooth 6 on, 6.5 waves over the face"))
         << list(result);
     EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
@@ -156,8 +156,8 @@ TEST(RidgeOnOneSide, IsOneFormWithSoftEdges) {
   };
   const auto result = close(gear, scan_of(gear, {grown(ridge)}, scanned(9000, 1.8, 22)), true);
   EXPECT_EQ(result.effects.size(), 1U) << list(result);
-  EXPECT_TRUE(tells_of(result, "with soft edges over about")) << list(result);
-  EXPECT_TRUE(tells_of(result, "a ridge over the face")) << list(result);
+  EXPECT_TRUE(tells(result, "with soft edges over about")) << list(result);
+  EXPECT_TRUE(tells(result, "a ridge over the face")) << list(result);
 }
 
 TEST(GrooveOfSomeTracesBesideASlope, IsOneFormOnTheseTeeth) {
@@ -173,9 +173,9 @@ TEST(GrooveOfSomeTracesBesideASlope, IsOneFormOnTheseTeeth) {
   options.index = false;
   options.seed = 23;
   const auto result = close(gear, inspection_of(gear, {grown(worn)}, options));
-  EXPECT_TRUE(tells_of(result, "on 9 teeth from tooth 20 on, a groove over the profile"))
+  EXPECT_TRUE(tells(result, "on 9 teeth from tooth 20 on, a groove over the profile"))
       << list(result);
-  EXPECT_FALSE(tells_of(result, "sector")) << list(result);
+  EXPECT_FALSE(tells(result, "sector")) << list(result);
   EXPECT_NE(find(result, "pressure_angle_error"), nullptr) << list(result);
 }
 
@@ -188,7 +188,7 @@ TEST(SectorWithSoftEdges, IsOneForm) {
     const auto result = close(gear, scan_of(gear, {grown(proud)}, scanned(9000, 1.6, 24)), true);
     EXPECT_EQ(result.effects.size(), 2U) << list(result);
     EXPECT_NE(find(result, "taper"), nullptr) << list(result);
-    EXPECT_TRUE(tells_of(result, "a sector of about 13 teeth around tooth 27.3")) << list(result);
+    EXPECT_TRUE(tells(result, "a sector of about 13 teeth around tooth 27.3")) << list(result);
     EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
   }
 }
@@ -203,7 +203,7 @@ TEST(SectorWithSoftEdges, OfOneFlankIsOneFormAndNoEccentricity) {
     if (off_um > 0.0) processes.push_back(off_centre(off_um, 70.0));
     const auto result = close(gear, scan_of(gear, processes, scanned(6000, 2.5, 25)), true);
     EXPECT_EQ(result.effects.size(), off_um > 0.0 ? 2U : 1U) << list(result);
-    EXPECT_TRUE(tells_of(result, "a sector of about 15 teeth around tooth 19.")) << list(result);
+    EXPECT_TRUE(tells(result, "a sector of about 15 teeth around tooth 19.")) << list(result);
     EXPECT_EQ(result.effects[0].flank, "left") << list(result);
     EXPECT_NEAR(parameter(result.effects[0], "amplitude_um").value, 15.0, 0.6) << list(result);
     if (off_um > 0.0) {
@@ -221,7 +221,7 @@ TEST(LeanOfMostTeeth, OfOneFlankIsNoLeanOfTheOthers) {
   };
   const auto result = close(gear, scan_of(gear, {grown(leaning)}, scanned(8000, 2.8, 26)), true);
   EXPECT_EQ(result.effects.size(), 1U) << list(result);
-  EXPECT_TRUE(tells_of(result, "16 teeth from tooth 13 on")) << list(result);
+  EXPECT_TRUE(tells(result, "16 teeth from tooth 13 on")) << list(result);
   EXPECT_EQ(result.effects[0].flank, "left") << list(result);
   EXPECT_NEAR(parameter(result.effects[0], "amplitude_um").value, 18.0, 0.8) << list(result);
 }

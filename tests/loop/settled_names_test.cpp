@@ -192,8 +192,7 @@ TEST(SettledNames, ACoatThatIsThinAtTheRootIsNoSizeOfThePart) {
     const auto result = close(gear, scan_of(gear, {coat}, scanned(6000, noise_um, 4)), true);
     EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
     EXPECT_EQ(result.effects.size(), 2U) << list(result);
-    EXPECT_TRUE(tells_of(result, "more and more over the profile towards the root"))
-        << list(result);
+    EXPECT_TRUE(tells(result, "more and more over the profile towards the root")) << list(result);
   }
 }
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Forms without a name in words: where there is more material, and sizes that the flank has.
+// Forms without a name in words: where there is more material.
 #include <gmock/gmock.h>
 
 #include <set>
 
-#include "tests/loop/made_gears.h"
-#include "trueflank/loop/gear/found_effects.h"
-#include "trueflank/loop/gear/local/loud_places.h"
+#include "tests/loop/words_of_forms.h"
 
 namespace trueflank::test {
 namespace {
@@ -15,15 +13,6 @@ using loop::EffectShape;
 using loop::FlankChoice;
 using testing::HasSubstr;
 using testing::Not;
-
-loop::Effect effect_of(const std::string& family, EffectShape shape,
-                       FlankChoice flank = FlankChoice::kBoth) {
-  return {loop::find_family(family), flank, std::move(shape)};
-}
-std::string told(const loop::FlankGeometry& g, const loop::Effect& effect,
-                 const std::vector<double>& amounts = {}) {
-  return loop::words_for(g, effect, amounts);
-}
 
 /// A form of one coefficient, what is said of it with a positive and a negative one, and a place
 /// that this speaks of: tooth, side, profile and face coordinate.
@@ -439,9 +428,9 @@ TEST(SignWords, SayOfEveryFormWhereThereIsMoreMaterial) {
   const auto g = geometry_of(spur(24));
   for (const Told& form : forms(g)) {
     const loop::Effect effect = effect_of(form.family, form.shape, form.flank);
-    EXPECT_THAT(told(g, effect, {3.0}), HasSubstr(form.positive));
-    EXPECT_THAT(told(g, effect, {-3.0}), HasSubstr(form.negative));
-    EXPECT_THAT(told(g, effect), Not(HasSubstr("clockwise"))) << "of an unknown sign";
+    EXPECT_THAT(said_of(g, effect, {3.0}), HasSubstr(form.positive));
+    EXPECT_THAT(said_of(g, effect, {-3.0}), HasSubstr(form.negative));
+    EXPECT_THAT(said_of(g, effect), Not(HasSubstr("clockwise"))) << "of an unknown sign";
     // What is true of the place that the words speak of.
     const bool more_on_this_side =
         form.positive.find("aside, clockwise") == std::string::npos
@@ -475,40 +464,41 @@ TEST(SignWords, AreSaidOfEveryFormOfOneCoefficient) {
     EffectShape shape;
     if (named.shapes) shape = named.shapes(g).front();
     const loop::Effect effect{form, FlankChoice::kBoth, shape};
-    EXPECT_THAT(told(g, effect), Not(HasSubstr("_"))) << named.id;
+    EXPECT_THAT(said_of(g, effect), Not(HasSubstr("_"))) << named.id;
     if (form->columns(shape) != 1) continue;
-    EXPECT_NE(told(g, effect, {3.0}), told(g, effect, {-3.0})) << named.id;
-    EXPECT_THAT(told(g, effect, {3.0}), Not(HasSubstr("where positive"))) << named.id;
+    EXPECT_NE(said_of(g, effect, {3.0}), said_of(g, effect, {-3.0})) << named.id;
+    EXPECT_THAT(said_of(g, effect, {3.0}), Not(HasSubstr("where positive"))) << named.id;
   }
 }
 
 TEST(SignWords, SayWhereAWaveIsLargest) {
   const auto g = geometry_of(spur(24));
-  EXPECT_THAT(told(g, effect_of("unnamed", {0, 0, 2, 0}), {0.0, 5.0}),
+  EXPECT_THAT(said_of(g, effect_of("unnamed", {0, 0, 2, 0}), {0.0, 5.0}),
               HasSubstr("the flanks stand out, most at 45 deg first"));
-  EXPECT_THAT(told(g, effect_of("unnamed", {0, 1, 1, 1}), {-5.0, 0.0}),
+  EXPECT_THAT(said_of(g, effect_of("unnamed", {0, 1, 1, 1}), {-5.0, 0.0}),
               HasSubstr("the upper end stands counter-clockwise, most at 180 deg"));
-  EXPECT_THAT(told(g, effect_of("unnamed_crossed_order", {0, 0, 0, 0, 5, 2, -1, 0, 1, 3}), {0, 4}),
-              HasSubstr("3 times per turn, dying away from the lower end within 2 mm, opposite on "
-                        "the two flanks: there the teeth stand counter-clockwise, most at 30 deg "
-                        "first"));
-  EXPECT_THAT(told(g, effect_of("unnamed_moved_sector", {5, 7}), {0.0, -4.0}),
+  EXPECT_THAT(
+      said_of(g, effect_of("unnamed_crossed_order", {0, 0, 0, 0, 5, 2, -1, 0, 1, 3}), {0, 4}),
+      HasSubstr("3 times per turn, dying away from the lower end within 2 mm, opposite on "
+                "the two flanks: there the teeth stand counter-clockwise, most at 30 deg "
+                "first"));
+  EXPECT_THAT(said_of(g, effect_of("unnamed_moved_sector", {5, 7}), {0.0, -4.0}),
               HasSubstr("7 teeth from tooth 5 on stand aside as one body, towards 270 deg"));
   EXPECT_THAT(
-      told(g, effect_of("unnamed_waviness", {1, 2.5}), {0.0, 4.0}),
+      said_of(g, effect_of("unnamed_waviness", {1, 2.5}), {0.0, 4.0}),
       HasSubstr("4.0 waves over the face, 2.5 mm long, the first crest at a height of 0.625 mm"));
 }
 
 TEST(SignWords, SayHowHighEveryStepIs) {
   const auto g = geometry_of(spur(24));
   EXPECT_THAT(
-      told(g, effect_of("unnamed_stairs", {20, 3, 12, 0}), {3.0, -1.5}),
+      said_of(g, effect_of("unnamed_stairs", {20, 3, 12, 0}), {3.0, -1.5}),
       HasSubstr("the height goes in steps: against teeth 20 to 2, teeth 3 to 11 stand out by 3 "
                 "um and teeth 12 to 19 lie back by 1.5 um"));
-  EXPECT_THAT(told(g, effect_of("unnamed_stairs", {1, 9, 17, 1}), {-3.0, 1.0}),
+  EXPECT_THAT(said_of(g, effect_of("unnamed_stairs", {1, 9, 17, 1}), {-3.0, 1.0}),
               HasSubstr("teeth 9 to 16 stand clockwise by 3 um and teeth 17 to 24 stand "
                         "counter-clockwise by 1 um"));
-  EXPECT_THAT(told(g, effect_of("unnamed_stairs", {1, 9, 17, 1})),
+  EXPECT_THAT(said_of(g, effect_of("unnamed_stairs", {1, 9, 17, 1})),
               HasSubstr("teeth 9 to 16 and teeth 17 to 24 differ from teeth 1 to 8"));
   double columns[2] = {7.0, 7.0};
   const auto stairs = effect_of("unnamed_stairs", {20, 3, 12, 0});
@@ -519,86 +509,6 @@ TEST(SignWords, SayHowHighEveryStepIs) {
     EXPECT_EQ(columns[0], first) << tooth;
     EXPECT_EQ(columns[1], second) << tooth;
   }
-}
-
-TEST(SizesInWords, AreBoundedByTheFlankAndTheGear) {
-  const auto g = geometry_of(spur(24));
-  const double d = 2.0 * g.reference_radius_mm();
-  ASSERT_NEAR(g.face_width_mm(), 10.0, 1e-9);
-  const auto spot = [&](double height, double wide) {
-    return told(g, effect_of("unnamed_spot", {5, d, height, 0.0, wide, 0.0}, FlankChoice::kRight),
-                {4.0});
-  };
-  EXPECT_THAT(spot(4.0, 190.0),
-              HasSubstr("part of the right flank of tooth 5, over the whole face"));
-  EXPECT_THAT(spot(9.0, 8.0), HasSubstr("over the upper 5 mm of the face"));
-  EXPECT_THAT(
-      spot(4.0, 1.0),
-      HasSubstr("a lump on the right flank of tooth 5, at a height of 4 mm, 1 mm over the face"));
-  EXPECT_THAT(
-      told(g, effect_of("unnamed_spot", {5, d, 4.0, 50.0, 190.0, 0.0}, FlankChoice::kLeft), {-4.0}),
-      testing::StrEq("the left flank of tooth 5 lies back"));
-  EXPECT_THAT(told(g, effect_of("unnamed_band", {1, -0.06, 1.7, 0}), {4.0}),
-              HasSubstr("a ridge over the face at the lower end"));
-  const auto dent = [&](double tooth, double half) {
-    return told(g, effect_of("unnamed_dent", {tooth, half, 0.0, 0.0}), {4.0});
-  };
-  EXPECT_THAT(dent(25.2, 0.7), HasSubstr("a swelling at tooth 1, hardly at those beside it"));
-  EXPECT_THAT(dent(0.3, 2.8), HasSubstr("about tooth 24, 3 teeth to either side"));
-  EXPECT_THAT(dent(5.0, 40.0), HasSubstr("around the gear, most about tooth 5"));
-}
-
-TEST(SizesInWords, AreSaidOfWavesAlongOneDirectionByThatAlone) {
-  const auto g = geometry_of(spur(24));
-  EXPECT_THAT(told(g, effect_of("unnamed_marks", {0.016, -4.0, 0.0})),
-              testing::StartsWith("4.0 waves over the face, 2.5 mm long, the same on every tooth"));
-  EXPECT_THAT(
-      told(g, effect_of("unnamed_marks", {1.5, -4.0, 3.0})),
-      testing::AllOf(HasSubstr("1.5 over the profile"), HasSubstr("4.0 over the face, 2.5 mm each"),
-                     HasSubstr("rising towards the tip"),
-                     HasSubstr("3 periods a turn, towards the upper end")));
-}
-
-TEST(LinesOfWavesThatRunBackwards, AreSaidOnlyWhereAllDo) {
-  const MadeGear gear = spur(67);
-  const auto ghost = [](double order, double way) {
-    return grown([order, way](const MadeGear& g, const FlankSpot& s, auto&) {
-      const double from = roll_of_radius(g, g.root_form_mm), to = roll_of_radius(g, g.tip_mm);
-      const double turned = (from + 0.5 * (s.u + 1.0) * (to - from)) / g.base();
-      return 5.0 * std::cos(order * (2.0 * M_PI * (s.tooth - 1) / g.teeth + way * s.side * turned));
-    });
-  };
-  InspectionOptions options = traced({1, 14, 27, 41, 54}, 0.4, 7);
-  const auto count = [](const loop::LoopResult& result) {
-    return std::count_if(result.effects.begin(), result.effects.end(), [](const auto& effect) {
-      return effect.description.find("counted clockwise") != std::string::npos;
-    });
-  };
-  const auto alone = close(gear, inspection_of(gear, {ghost(174.0, 1.0)}, options));
-  EXPECT_EQ(count(alone), 1) << list(alone);
-  const auto beside =
-      close(gear, inspection_of(gear, {ghost(174.0, 1.0), ghost(120.0, -1.0)}, options));
-  EXPECT_GE(beside.effects.size(), 2U) << list(beside);
-  EXPECT_EQ(count(beside), 0) << list(beside);
-}
-
-TEST(NotesOnLouderFlanks, AreOneForManyTeeth) {
-  std::vector<loop::LouderPlace> places;
-  for (int tooth = 3; tooth <= 9; ++tooth)
-    places.push_back({.flank = FlankChoice::kLeft, .tooth = tooth, .times = 2.0 + 0.3 * tooth});
-  places.push_back({.flank = FlankChoice::kRight,
-                    .over_face = true,
-                    .low_mm = 1.0,
-                    .high_mm = 2.0,
-                    .times = 3.0});
-  const auto notes = loop::notes_on(places);
-  ASSERT_EQ(notes.size(), 2U);
-  EXPECT_THAT(notes[0], HasSubstr("on all right flanks between heights of 1 and 2 mm"));
-  EXPECT_THAT(
-      notes[1],
-      HasSubstr("on teeth 3 to 9 (left flanks), points of the scan scatter 2.9 to 4.7 times"));
-  places.resize(2);
-  EXPECT_EQ(loop::notes_on(places).size(), 2U);
 }
 
 }  // namespace

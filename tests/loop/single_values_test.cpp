@@ -251,7 +251,7 @@ TEST(SingleValues, OneFlankOfOneToothStandsOutOfAnIndex) {
     for (loop::InspectionRow& row : data.rows)
       if (row.tooth == 12 && row.flank == Flank::kLeft) row.deviation_um += 6.0;
     const auto result = close(spur(30), data);
-    found += tells_of(result, "the left flank of tooth 12 stands out") ? 1 : 0;
+    found += tells(result, "the left flank of tooth 12 stands out") ? 1 : 0;
     others += result.effects.size() > 1 ? 1 : 0;
   }
   EXPECT_GE(found, 9);
@@ -283,7 +283,7 @@ TEST(SingleValues, NoToothStandsOutOfNoiseOrOfTeethThatAreAllLouder) {
   for (unsigned seed = 1; seed <= 40; ++seed) {
     of_white += close(spur(30), index_with(spur(30), seed)).effects.empty() ? 0 : 1;
     of_louder +=
-        tells_of(close(spur(30), index_with(spur(30), seed, 3.0)), "inspect that tooth") ? 1 : 0;
+        tells(close(spur(30), index_with(spur(30), seed, 3.0)), "inspect that tooth") ? 1 : 0;
   }
   EXPECT_LE(of_white, 1);
   EXPECT_LE(of_louder, 5);

@@ -32,8 +32,8 @@ double told_edge_mm(const loop::LoopResult& result) {
 }
 void expect_step(const loop::LoopResult& result, const std::string& words, std::size_t effects,
                  loop::Verdict verdict = loop::Verdict::kExplained) {
-  EXPECT_TRUE(tells_of(result, "a step over")) << list(result);
-  EXPECT_TRUE(tells_of(result, words)) << list(result);
+  EXPECT_TRUE(tells(result, "a step over")) << list(result);
+  EXPECT_TRUE(tells(result, words)) << list(result);
   EXPECT_EQ(result.effects.size(), effects) << list(result);
   EXPECT_EQ(result.verdict, verdict) << list(result);
 }
@@ -88,8 +88,8 @@ TEST(SoftStep, OfBothFlanksAlikeStandsBesideALevel) {
               {stepped(-5.6, -0.1, 0.2, false), grown([](auto&, auto&, auto&) { return 5.6; })},
               scanned(5000, 1.0, 24)),
       true);
-  EXPECT_TRUE(tells_of(result, "a step over the face")) << list(result);
-  EXPECT_TRUE(tells_of(result, "above it the flanks lie back")) << list(result);
+  EXPECT_TRUE(tells(result, "a step over the face")) << list(result);
+  EXPECT_TRUE(tells(result, "above it the flanks lie back")) << list(result);
   EXPECT_LE(result.effects.size(), 2U) << list(result);
 }
 
@@ -112,7 +112,7 @@ TEST(SoftStep, IsNotMadeOfASharpOneNorOfAnS) {
   const MadeGear gear = spur(27);
   const auto sharp =
       close(gear, scan_of(gear, {stepped(20.0, 0.2, 1e-6, false)}, scanned(8000, 2.5, 25)), true);
-  EXPECT_TRUE(tells_of(sharp, "a step over the face")) << list(sharp);
+  EXPECT_TRUE(tells(sharp, "a step over the face")) << list(sharp);
   EXPECT_EQ(told_edge_mm(sharp), 0.0) << list(sharp);
   const auto s = close(gear,
                        scan_of(gear, {grown([](auto&, const FlankSpot& f, auto&) {
@@ -120,13 +120,13 @@ TEST(SoftStep, IsNotMadeOfASharpOneNorOfAnS) {
                                })},
                                scanned(8000, 1.5, 26)),
                        true);
-  EXPECT_FALSE(tells_of(s, "a step")) << list(s);
+  EXPECT_FALSE(tells(s, "a step")) << list(s);
   // What dies away from an end rises towards it.
   const auto end = close(gear, inspection_of(gear, {grown([](auto&, const FlankSpot& f, auto&) {
                                                return 6.0 * f.side * std::exp(-(1.0 - f.v) / 0.19);
                                              })},
                                              traced({1, 7, 14, 21}, 0.4, 27)));
-  EXPECT_FALSE(tells_of(end, "a step")) << list(end);
+  EXPECT_FALSE(tells(end, "a step")) << list(end);
 }
 
 int times_told(const loop::LoopResult& result, const std::string& words) {
@@ -146,9 +146,9 @@ TEST(SeveralSteps, AreEachToldWithHeightAndSize) {
                     scanned(2000, 2.0, 31)),
             true);
   for (const std::string height : {"3.5", "6.5"})
-    EXPECT_TRUE(tells_of(result, "at a height of " + height +
-                                     " mm, opposite on the two flanks: above it the teeth stand "
-                                     "counter-clockwise"))
+    EXPECT_TRUE(tells(result, "at a height of " + height +
+                                  " mm, opposite on the two flanks: above it the teeth stand "
+                                  "counter-clockwise"))
         << list(result);
   EXPECT_EQ(times_told(result, "the same on every tooth"), 2) << list(result);
   EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
@@ -162,8 +162,8 @@ TEST(FadingJump, IsOneForm) {
     return off > 0.0 ? -10.0 * std::exp(-off / 0.4) : 0.0;
   });
   const auto result = close(gear, inspection_of(gear, {snag}, traced({1, 10, 19}, 0.8, 32)));
-  EXPECT_TRUE(tells_of(result, "that dies away towards the upper end, within 1.9")) << list(result);
-  EXPECT_TRUE(tells_of(result, "behind it the flanks lie back")) << list(result);
+  EXPECT_TRUE(tells(result, "that dies away towards the upper end, within 1.9")) << list(result);
+  EXPECT_TRUE(tells(result, "behind it the flanks lie back")) << list(result);
   EXPECT_EQ(result.effects.size(), 1U) << list(result);
 }
 
@@ -176,8 +176,8 @@ TEST(SkewedBand, OfOppositeFlanksIsOneForm) {
   });
   const auto result =
       close(gear, inspection_of(gear, {rolled}, traced({1, 6, 11, 16, 21, 26}, 0.6, 34)));
-  EXPECT_TRUE(tells_of(result, "a groove or ridge over the profile")) << list(result);
-  EXPECT_TRUE(tells_of(result, "there the teeth stand counter-clockwise")) << list(result);
+  EXPECT_TRUE(tells(result, "a groove or ridge over the profile")) << list(result);
+  EXPECT_TRUE(tells(result, "there the teeth stand counter-clockwise")) << list(result);
   EXPECT_EQ(result.effects.size(), 1U) << list(result);
 }
 
@@ -190,7 +190,7 @@ TEST(Sawtooth, IsOneFormAndNoLead) {
       return (opposite ? s.side : 1) * 8.0 * (2.0 * (at - std::floor(at)) - 1.0);
     });
     const auto result = close(gear, scan_of(gear, {saw}, scanned(2500, 2.0, 33)), true);
-    EXPECT_TRUE(tells_of(result, "a sawtooth over the face, period")) << list(result);
+    EXPECT_TRUE(tells(result, "a sawtooth over the face, period")) << list(result);
     EXPECT_EQ(result.effects.size(), 1U) << list(result);
     EXPECT_NEAR(std::abs(parameter(result.effects[0], "amplitude_um").value), 16.0, 0.5)
         << list(result);

@@ -34,10 +34,10 @@ TEST(TeethInTurn, ARidgeOfOneToothInSoManyIsOneForm) {
     const auto result = closed_on_traces(gear, made, 0.7, false);
     EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
     ASSERT_EQ(result.effects.size(), 1U) << list(result);
-    EXPECT_TRUE(tells_of(result, "on one tooth in " + std::to_string(every) + ", from tooth " +
-                                     std::to_string(first) + " on, about a height of"))
+    EXPECT_TRUE(tells(result, "on one tooth in " + std::to_string(every) + ", from tooth " +
+                                  std::to_string(first) + " on, about a height of"))
         << list(result);
-    EXPECT_TRUE(tells_of(result, sign > 0.0 ? "stand out" : "lie back")) << list(result);
+    EXPECT_TRUE(tells(result, sign > 0.0 ? "stand out" : "lie back")) << list(result);
     const auto& term = result.effects.front().terms.front();
     EXPECT_NEAR(term.amplitude(), 7.0, 0.5) << list(result);
   }
@@ -54,9 +54,9 @@ TEST(TeethInTurn, ASpotOfOneToothInSoManyIsOneForm) {
                              : closed_on_traces(gear, made, 0.7, true);
     EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
     ASSERT_EQ(result.effects.size(), 1U) << list(result);
-    EXPECT_TRUE(tells_of(result, "on one tooth in 5, from tooth 3 on")) << list(result);
-    EXPECT_TRUE(tells_of(result, "about a diameter of")) << list(result);
-    EXPECT_TRUE(tells_of(result, "about a height of")) << list(result);
+    EXPECT_TRUE(tells(result, "on one tooth in 5, from tooth 3 on")) << list(result);
+    EXPECT_TRUE(tells(result, "about a diameter of")) << list(result);
+    EXPECT_TRUE(tells(result, "about a height of")) << list(result);
     EXPECT_NEAR(result.effects.front().terms.front().amplitude(), 11.0, 1.2) << list(result);
   }
 }
@@ -74,8 +74,8 @@ TEST(TeethInTurn, ASoftSpotOfOneToothIsOneForm) {
     const auto result = closed_on_traces(gear, made, 0.6, common_zero);
     EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
     ASSERT_EQ(result.effects.size(), 1U) << list(result);
-    EXPECT_TRUE(tells_of(result, "on tooth " + std::to_string(tooth) + " alone, a " +
-                                     (sign > 0.0 ? "swelling" : "hollow") + " of the flank"))
+    EXPECT_TRUE(tells(result, "on tooth " + std::to_string(tooth) + " alone, a " +
+                                  (sign > 0.0 ? "swelling" : "hollow") + " of the flank"))
         << list(result);
     EXPECT_NEAR(result.effects.front().terms.front().amplitude(), 9.0, 1.0) << list(result);
   }
@@ -93,9 +93,9 @@ TEST(TeethInTurn, TeethAtAnyPlacesAreTheirOwn) {
   const auto result = closed_on_traces(gear, made, 0.6, true);
   EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
   for (const int tooth : {4, 11, 23})
-    EXPECT_TRUE(tells_of(result, "on tooth " + std::to_string(tooth) + " alone, a swelling"))
+    EXPECT_TRUE(tells(result, "on tooth " + std::to_string(tooth) + " alone, a swelling"))
         << list(result);
-  EXPECT_FALSE(tells_of(result, "one tooth in")) << list(result);
+  EXPECT_FALSE(tells(result, "one tooth in")) << list(result);
 }
 
 // Beside a hollow the size of the part says what the pressure angle does, to the last bit: on

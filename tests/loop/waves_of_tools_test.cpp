@@ -33,8 +33,8 @@ TEST(WavesOfTools, OnTracesOfAHelicalGearAreNoMachinesOrder) {
     const auto result =
         close(gear, inspection_of(gear, {grown(made)}, traced({1, 11, 22, 32}, 0.25, 41)));
     ASSERT_EQ(result.effects.size(), 1U) << list(result);
-    EXPECT_TRUE(tells_of(result, "waves over the profile")) << list(result);
-    EXPECT_TRUE(tells_of(result, "mirrored on the two flanks")) << list(result);
+    EXPECT_TRUE(tells(result, "waves over the profile")) << list(result);
+    EXPECT_TRUE(tells(result, "mirrored on the two flanks")) << list(result);
   }
 }
 
@@ -50,7 +50,7 @@ TEST(WavesOfTools, OfTheOrderOfTheTeethOnProfilesAloneAreNoMachinesOrder) {
     };
     const auto result = close(gear, inspection_of(gear, {grown(made)}, options));
     ASSERT_EQ(result.effects.size(), 1U) << list(result);
-    EXPECT_TRUE(tells_of(result, "mirrored on the two flanks")) << list(result);
+    EXPECT_TRUE(tells(result, "mirrored on the two flanks")) << list(result);
   }
 }
 
@@ -66,7 +66,7 @@ TEST(WavesOfTools, StandBesideARelief) {
                     scanned(4000, 1.5, 43)),
             true);
   expect_size(result, "tip_relief", "amount_um", 14.0, 1.0);
-  EXPECT_TRUE(tells_of(result, "mirrored on the two flanks")) << list(result);
+  EXPECT_TRUE(tells(result, "mirrored on the two flanks")) << list(result);
   EXPECT_EQ(result.effects.size(), 2U) << list(result);
 }
 
@@ -82,9 +82,9 @@ Process scallops(double depth_um, double over_profile, double over_face) {
 TEST(Scallops, OfAScanAreOneFormOfBothFlanks) {
   const auto result =
       close(spur(26), scan_of(spur(26), {scallops(14.0, 0.8, 4.3)}, scanned(5000, 1.5, 44)), true);
-  EXPECT_TRUE(tells_of(result, "scallops with sharp grooves between them")) << list(result);
-  EXPECT_TRUE(tells_of(result, "0.8 over the profile")) << list(result);
-  EXPECT_TRUE(tells_of(result, "4.3 over the face")) << list(result);
+  EXPECT_TRUE(tells(result, "scallops with sharp grooves between them")) << list(result);
+  EXPECT_TRUE(tells(result, "0.8 over the profile")) << list(result);
+  EXPECT_TRUE(tells(result, "4.3 over the face")) << list(result);
   EXPECT_LE(result.effects.size(), 2U) << "(and by how much all flanks stand out)" << list(result);
 }
 
@@ -94,8 +94,8 @@ TEST(Scallops, OfTracesHaveTheirInclination) {
   const auto result =
       close(gear, inspection_of(gear, {scallops(5.0, -0.6, 5.2)}, traced({1, 12, 23}, 0.3, 45)));
   ASSERT_EQ(result.effects.size(), 1U) << list(result);
-  EXPECT_TRUE(tells_of(result, "scallops with sharp grooves between them")) << list(result);
-  EXPECT_TRUE(tells_of(result, "rising towards the tip")) << list(result);
+  EXPECT_TRUE(tells(result, "scallops with sharp grooves between them")) << list(result);
+  EXPECT_TRUE(tells(result, "rising towards the tip")) << list(result);
 }
 
 }  // namespace

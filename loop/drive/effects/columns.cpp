@@ -86,6 +86,9 @@ DriveFamily without_a_name() {
   f.named = false;
   f.preference = 6;
   f.term_keys = drive_term_keys();
+  f.term_shapes = [](const DriveShape&) {
+    return std::vector<DriveShape>{{0.0, 0.0, 0.0, 0.0, 0.0}};
+  };
   f.not_carried = "a description without a cause";
   return f;
 }

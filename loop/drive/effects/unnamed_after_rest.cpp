@@ -15,7 +15,7 @@ namespace {
 
 enum RestValue : std::size_t { kRestOf, kRestPeriod, kRestPhase, kRestRows };
 
-/// RunsBetweenTurns from one change of direction to the next, of each file.
+/// Runs from one change of direction to the next, of all files: how many, and their rows.
 struct RunsBetweenTurns {
   double count = 0.0, rows = 0.0;
   [[nodiscard]] double mean() const { return rows / std::max(1.0, count); }
@@ -113,9 +113,6 @@ DriveFamily unnamed_after_rest() {
     return s[kRestPeriod] == 0.0
                ? std::string("that dies away after every change of direction")
                : "that dies away and comes again every " + short_text(s[kRestPeriod]) + " rows";
-  };
-  f.term_shapes = [](const DriveShape&) {
-    return std::vector<DriveShape>{{0.0, 0.0, 0.0, 0.0, 0.0}};
   };
   return f;
 }

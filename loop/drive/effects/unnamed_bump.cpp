@@ -62,9 +62,6 @@ DriveFamily unnamed_bump() {
   f.words = [](const DriveModel& model, const DriveShape& s, const DriveContext*) {
     return "short, once in every turn " + turn_in_words(model, s[kBumpOrder]);
   };
-  f.term_shapes = [](const DriveShape&) {
-    return std::vector<DriveShape>{{0.0, 0.0, 0.0, 0.0, 0.0}};
-  };
   return f;
 }
 

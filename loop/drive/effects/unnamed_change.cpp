@@ -140,9 +140,6 @@ DriveFamily unnamed_spell() {
            (context ? lines_between(context->table, s[2], s[2] + s[3]) : std::string()) +
            of_what(s[0]);
   };
-  f.term_shapes = [](const DriveShape&) {
-    return std::vector<DriveShape>{{0.0, 0.0, 0.0, 0.0, 0.0}};
-  };
   return f;
 }
 
@@ -170,9 +167,6 @@ DriveFamily unnamed_change() {
     if (const BenchPoint* row = context ? row_after(context->table, shape[1]) : nullptr)
       text += " at line " + std::to_string(row->line);
     return text + of_what(shape[0]);
-  };
-  f.term_shapes = [](const DriveShape&) {
-    return std::vector<DriveShape>{{0.0, 0.0, 0.0, 0.0, 0.0}};
   };
   return f;
 }

@@ -184,9 +184,6 @@ DriveFamily unnamed_onset() {
   };
   f.figures = onset_figures;
   f.told = onset_told;
-  f.term_shapes = [](const DriveShape&) {
-    return std::vector<DriveShape>{{0.0, 0.0, 0.0, 0.0, 0.0}};
-  };
   return f;
 }
 

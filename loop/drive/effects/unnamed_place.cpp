@@ -195,9 +195,6 @@ DriveFamily at_a_place(bool hump) {
   f.words = [hump](const DriveModel&, const DriveShape& shape, const DriveContext* context) {
     return place_in_words(shape, context, hump ? "hump" : "step");
   };
-  f.term_shapes = [](const DriveShape&) {
-    return std::vector<DriveShape>{{0.0, 0.0, 0.0, 0.0, 0.0}};
-  };
   return f;
 }
 

@@ -36,9 +36,6 @@ DriveFamily unnamed_settling() {
                 ? ", by the friction of the flanks (running in?)"
                 : ", by the same torque at every load (running in, warmth?)");
   };
-  f.term_shapes = [](const DriveShape&) {
-    return std::vector<DriveShape>{{0.0, 0.0, 0.0, 0.0, 0.0}};
-  };
   return f;
 }
 

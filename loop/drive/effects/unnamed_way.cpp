@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -13,10 +14,8 @@ namespace trueflank::loop::drive_effects {
 namespace {
 
 enum WayValue : std::size_t { kWayOver, kWayOf, kWayForm };
-enum WayForm {
-  kEven,
-  kMiddle
-};  ///< as much everywhere; most in the middle of the range, nothing at its ends
+/// As much everywhere; most in the middle of the range, nothing at its ends.
+enum WayForm { kEven, kMiddle };
 
 double way_of(const BenchPoint& p, const DriveShape& s) {
   return s[kWayOver] == 0.0 ? p.way : p.speed_way;
@@ -99,9 +98,6 @@ DriveFamily unnamed_way() {
   f.words = [](const DriveModel&, const DriveShape& s, const DriveContext*) {
     return std::string("that differs with the way of the ") + name_of_quantity(s[kWayOver]) +
            " (rising or falling)";
-  };
-  f.term_shapes = [](const DriveShape&) {
-    return std::vector<DriveShape>{{0.0, 0.0, 0.0, 0.0, 0.0}};
   };
   return f;
 }

@@ -270,26 +270,4 @@ bool ban_misnamed(PartModel& model) {
   return any;
 }
 
-bool drop_idle_forms(PartModel& model) {
-  constexpr double kIdle = 25.0;  // chi-square: five standard errors
-  bool any = false;
-  while (!model.given_p_values.empty()) {
-    const std::size_t first = first_told_here(model);
-    const auto [idle, loss] =
-        least_missed(model, first, model.options.given.size(), [](const Effect&) { return true; });
-    if (loss > kIdle) break;
-    model.effects.erase(model.effects.begin() + static_cast<std::ptrdiff_t>(idle));
-    model.options.given.erase(model.options.given.begin() + static_cast<std::ptrdiff_t>(idle));
-    model.given_p_values.erase(model.given_p_values.begin() +
-                               static_cast<std::ptrdiff_t>(idle - first));
-    any = true;
-  }
-  if (any) {
-    // What was banned beside them was banned for no reason.
-    model.banned = model.unseen;
-    ban_given(model);
-  }
-  return any;
-}
-
 }  // namespace trueflank::loop

@@ -20,8 +20,5 @@ void ban_given(PartModel& model);
 /// same order remain unexplained, which is not that wave and is better described. True where any
 /// was.
 [[nodiscard]] bool ban_misnamed(PartModel& model);
-/// Forms that a better one, taken up later, made idle, and what was banned beside
-/// them. True where there were any.
-[[nodiscard]] bool drop_idle_forms(PartModel& model);
 
 }  // namespace trueflank::loop

@@ -545,4 +545,21 @@ void doubt_names_below_what_is_left(PartModel& model) {
   }
 }
 
+bool drop_idle_forms(PartModel& model) {
+  constexpr double kIdle = 25.0;  // chi-square: five standard errors
+  bool any = false;
+  while (!model.given_p_values.empty()) {
+    const std::size_t first = first_told_here(model);
+    const auto [idle, loss] =
+        least_missed(model, first, model.options.given.size(), [](const Effect&) { return true; });
+    if (loss > kIdle) return any;
+    model.effects.erase(model.effects.begin() + static_cast<std::ptrdiff_t>(idle));
+    model.options.given.erase(model.options.given.begin() + static_cast<std::ptrdiff_t>(idle));
+    model.given_p_values.erase(model.given_p_values.begin() +
+                               static_cast<std::ptrdiff_t>(idle - first));
+    any = true;
+  }
+  return any;
+}
+
 }  // namespace trueflank::loop

@@ -42,5 +42,7 @@ void take_over(PartModel& model, PartModel& other);
 /// shows it, is as likely a part of that: it is told as a form, or not at all. So is a machine's
 /// order that straight traces look like.
 void doubt_names_below_what_is_left(PartModel& model);
+/// Forms that a better one, taken up later, made idle. True where there were any.
+[[nodiscard]] bool drop_idle_forms(PartModel& model);
 
 }  // namespace trueflank::loop
