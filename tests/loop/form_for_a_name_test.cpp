@@ -47,5 +47,21 @@ TEST(FormForAName, WhatTheNamesSayKeepsThem) {
   }
 }
 
+// Errors that hang together bend a slope near an end as far as chance goes: a kink there is a
+// slope.
+TEST(FormForAName, ATaperOfErrorsThatHangTogetherStaysOne) {
+  const MadeGear gear = spur(18);
+  const auto made = grown([](auto&, const FlankSpot& s, auto&) { return 9.0 * s.v; });
+  for (unsigned seed = 1; seed <= 24; ++seed) {
+    InspectionOptions options;
+    options.noise_um = 0.8;
+    options.correlation = 0.85;
+    options.points = 30;
+    options.seed = seed;
+    const auto result = close(gear, inspection_of(gear, {made}, options));
+    EXPECT_NE(find(result, "taper"), nullptr) << seed << list(result);
+  }
+}
+
 }  // namespace
 }  // namespace trueflank::test

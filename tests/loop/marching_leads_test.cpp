@@ -85,9 +85,22 @@ TEST(MarchingLeads, WavesOfNoWholeNumberOfPeriodsAreOneForm) {
   std::mt19937_64 random(42);
   for (unsigned draw = 0; draw < 6; ++draw) {
     March march = drawn(random, false);
-    if (draw % 3 == 0) march.order = std::trunc(march.order) + std::copysign(0.5, march.order);
+    // Half way, and near a whole number.
+    if (draw % 3 != 2)
+      march.order =
+          std::trunc(march.order) + std::copysign(draw % 3 == 0 ? 0.5 : 0.12, march.order);
     const auto result = closed(march, draw % 2 == 0, draw);
     expect_told(result, march, "draw " + std::to_string(draw) + ": ");
+    EXPECT_TRUE(tells(result, "no whole number")) << list(result);
+  }
+}
+
+// Where no whole order beside the first one is left to be seen.
+TEST(MarchingLeads, OneThatKeepsStepNearlyIsNoWholeOrder) {
+  for (const March& march :
+       {March{17, 5.5, -2.87, 0.4, 9.0, 1}, March{27, 2.6, -6.08, 1.1, 3.5, 0}}) {
+    const auto result = closed(march, true, 3);
+    expect_told(result, march, "");
     EXPECT_TRUE(tells(result, "no whole number")) << list(result);
   }
 }

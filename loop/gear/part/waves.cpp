@@ -303,18 +303,20 @@ bool tell_as_walking_waves(PartModel& model) {
   constexpr int kFewestTeeth = 8, kSeams = 16, kMore = 3;  // kMore: values
   const int z = model.geometry.teeth();
   if (z < kFewestTeeth) return false;
-  const EffectFamily* walking = find_family("unnamed_walking_waves");
+  const EffectFamily *marks = find_family("unnamed_marks"),
+                     *walking = find_family("unnamed_walking_waves");
   for (const FlankChoice flank : {FlankChoice::kLeft, FlankChoice::kRight, FlankChoice::kBoth}) {
-    // (what is the same on both flanks of a tooth is told by either)
-    const int side = flank == flank_choice(model.geometry, 0) ? -1 : 1;
     std::vector<WaveAcross> waves;
     for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
       const Effect& effect = model.effects[e];
-      if (effect.flank != flank || effect.columns() != 2 || effect.family->local ||
-          !(effect.family->tells_order_along_profile ||
-            effect.family == find_family("unnamed_marks") || effect.family == walking ||
+      const bool runs_on = effect.family == marks || effect.family == walking;
+      // What runs on may be told in parts of one flank and of both.
+      if ((effect.flank != flank && !(flank == FlankChoice::kBoth && runs_on)) ||
+          effect.columns() != 2 || effect.family->local ||
+          !(effect.family->tells_order_along_profile || runs_on ||
             effect.family == find_family("unnamed_waviness")))
         continue;
+      const int side = effect.flank == flank_choice(model.geometry, 0) ? -1 : 1;
       waves.push_back(wave_across(model.geometry, effect, side));
       if (effect.family == walking)
         waves.back().order = effect.shape[2];  // (across its first tooth, too)
@@ -329,8 +331,8 @@ bool tell_as_walking_waves(PartModel& model) {
     if (most.profile == 0.0 && std::abs(most.face) < kFewest) continue;
     std::vector<std::size_t> these;
     // (one that runs on from tooth to tooth may do so by no whole number itself)
-    bool beside = model.effects[most.effect].family == find_family("unnamed_marks") &&
-                  model.effects[most.effect].shape[2] != 0.0;
+    bool beside =
+        model.effects[most.effect].family == marks && model.effects[most.effect].shape[2] != 0.0;
     for (const WaveAcross& own : waves)
       for (const WaveAcross& wave : {own, own.reversed()}) {
         if (std::abs(wave.profile - most.profile) > kAlike ||
