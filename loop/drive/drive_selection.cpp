@@ -30,6 +30,8 @@ bool far_of(const std::map<std::size_t, double>& one, const std::map<std::size_t
   });
 }
 
+bool has_no_name(const DriveEffect& effect) { return !effect.family->named; }
+
 }  // namespace
 
 DriveSelection::DriveSelection(const DriveModel& model, BenchTable table,
@@ -261,12 +263,10 @@ bool DriveSelection::propose_spell(const DriveOutcome& outcome) {
   if (gains_power() && !losses_beside_gains_) return false;
   constexpr double kLevel = 0.001;  // searched beside the engine's own test
   const DriveContext here = context();
-  const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
-  std::vector<bool> left_out;
-  for (const DriveEffect& effect : outcome.effects)
-    left_out.push_back(!effect.family->shape_of_spell &&
-                       (!effect.family->named || effect.order() > 0.0));
-  const Eigen::VectorXd left = left_by_names(outcome);
+  // (a wave may be a part of what comes once in a turn)
+  const Eigen::VectorXd left = left_without(outcome, [](const DriveEffect& effect) {
+    return !effect.family->shape_of_spell && (!effect.family->named || effect.order() > 0.0);
+  });
   const LikeliestSpell of_turns = likeliest_spell_of_turns(here, left),
                        of_run = likeliest_spell_of_run(here, left);
   const LikeliestSpell& spell = of_turns.p_value <= of_run.p_value ? of_turns : of_run;
@@ -276,10 +276,11 @@ bool DriveSelection::propose_spell(const DriveOutcome& outcome) {
       {host, host->shape_of_spell(spell.what, spell.order, spell.begin, spell.length)});
 }
 
-Eigen::VectorXd DriveSelection::left_by_names(const DriveOutcome& outcome) const {
+Eigen::VectorXd DriveSelection::left_without(
+    const DriveOutcome& outcome, const std::function<bool(const DriveEffect&)>& is_left_out) const {
   const DriveFit fit(context(), value_, outcome.effects, FitRows::kTraining);
   std::vector<bool> left_out;
-  for (const DriveEffect& effect : outcome.effects) left_out.push_back(!effect.family->named);
+  for (const DriveEffect& effect : outcome.effects) left_out.push_back(is_left_out(effect));
   return value_ - fit.columns() * fit.without(left_out);
 }
 
@@ -287,7 +288,7 @@ bool DriveSelection::propose_rest(const DriveOutcome& outcome) {
   if (gains_power() && !losses_beside_gains_) return false;
   constexpr double kLevel = 0.001;  // searched beside the engine's own test
   const DriveContext here = context();
-  const LikeliestRest rest = likeliest_rest(here, left_by_names(outcome));
+  const LikeliestRest rest = likeliest_rest(here, left_without(outcome, has_no_name));
   if (!(rest.p_value < kLevel)) return false;
   const DriveFamily* host = family_with(&DriveFamily::shape_of_rest);
   bool any = false;
@@ -301,7 +302,7 @@ bool DriveSelection::propose_wander(const DriveOutcome& outcome) {
   if (gains_power() && !losses_beside_gains_) return false;
   constexpr double kLevel = 0.001;  // searched beside the engine's own test
   const DriveContext here = context();
-  const LikeliestWander wander = likeliest_wander(here, left_by_names(outcome));
+  const LikeliestWander wander = likeliest_wander(here, left_without(outcome, has_no_name));
   if (!(wander.p_value < kLevel)) return false;
   const DriveFamily* host = family_with(&DriveFamily::shape_of_wander);
   return add_candidate({host, host->shape_of_wander(wander.what, wander.degree)});

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -118,8 +119,10 @@ class DriveSelection {
   bool propose_wander(const DriveOutcome& outcome);
   /// Where a loss dies away and comes again after as many rows: one candidate more.
   bool propose_rest(const DriveOutcome& outcome);
-  /// What these effects leave, whatever has no name left out.
-  [[nodiscard]] Eigen::VectorXd left_by_names(const DriveOutcome& outcome) const;
+  /// What the training leaves of these effects, some of them left out.
+  [[nodiscard]] Eigen::VectorXd left_without(
+      const DriveOutcome& outcome,
+      const std::function<bool(const DriveEffect&)>& is_left_out) const;
   /// False where it is one already.
   bool add_candidate(const DriveEffect& effect);
   /// Tries the named effects in the order in which people would think of them: where the plainer

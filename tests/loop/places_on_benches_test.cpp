@@ -259,6 +259,30 @@ TEST(PlacesOnBenches, ADamagedToothIsOnePlaceOfTheTurnThatItComesWith) {
   EXPECT_EQ(member, tally.one_form);
 }
 
+// A coupling that rubs over a part of every turn of the output: no waves of that turn.
+TEST(PlacesOnBenches, APartOfATurnThatRubsIsOneFormWithItsWidth) {
+  Tally tally;
+  for (int run = 1; run <= kRuns; ++run) {
+    const auto seed = static_cast<std::uint64_t>(8500 + run);
+    DrawnBench bench(seed, RowOrder::kShuffled);
+    bench.with_angle = true;
+    const double from = bench.between(0.1, 0.7), length = bench.between(0.12, 0.2),
+                 size = bench.scatter_nm() * bench.between(5.0, 12.0);
+    const auto data = bench.data([&](const DrawnRow& row) {
+      const double turns = row.input_turns / bench.ratio, in_turn = turns - std::floor(turns);
+      return in_turn >= from && in_turn <= from + length ? size : 0.0;
+    });
+    // Members that come whole times in that turn have waves with a name, which are found first.
+    loop::DriveModel model = bench.model();
+    for (const double times : {2.0, 3.0, 4.0, 5.0})
+      model.orders.push_back({"a member", times / bench.ratio});
+    const auto closed = loop::close_drive_loop(model, data);
+    count(tally, closed, seed, "width_deg", 360.0 * length, "amplitude_nm", size);
+  }
+  std::printf("part of a turn: %s", tally.text().c_str());
+  expect_told(tally, 0.8, 0.8);
+}
+
 TEST(PlacesOnBenches, AZeroIsSaidToBeOfEitherSensor) {
   int both = 0;
   for (int run = 1; run <= kRuns; ++run) {
