@@ -8,6 +8,7 @@
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/gear/found_effects.h"
 #include "trueflank/loop/gear/iso_1328.h"
+#include "trueflank/loop/gear/local/far_values.h"
 #include "trueflank/loop/gear/local/loud_places.h"
 #include "trueflank/loop/gear/orders_alike.h"
 #include "trueflank/loop/gear/part/bans.h"
@@ -85,6 +86,8 @@ LoopResult result_of(const FlankGeometry& geometry, const PartModel& model, cons
   result.noise = noise.um;
   result.notes = model.table->notes;
   for (std::string& note : notes_on(still_louder(geometry, model.table, model.patches, left_um)))
+    result.notes.push_back(std::move(note));
+  for (std::string& note : notes_on_far_values(geometry, *model.table.operator->(), left_um))
     result.notes.push_back(std::move(note));
   const auto none = plain_fit(model)->errors({});
   const auto all = fit.errors(std::vector<bool>(model.effects.size(), true));

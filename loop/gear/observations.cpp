@@ -2,8 +2,10 @@
 #include "trueflank/loop/gear/observations.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "trueflank/base/large_pages.h"
 #include "trueflank/base/number_text.h"
@@ -15,6 +17,7 @@
 #include "trueflank/loop/gear/table/outliers.h"
 #include "trueflank/loop/gear/table/size_scatter.h"
 #include "trueflank/loop/gear/table/trace_zeros.h"
+#include "trueflank/loop/gear/table/zeros_at_places.h"
 #include "trueflank/loop/measured/text_table.h"
 
 namespace trueflank::loop {
@@ -100,6 +103,17 @@ class TableBuilder {
     BadLines bad(data.file);
     ForeignRows foreign;
     const std::size_t before = table.rows.size();
+    for (const RecordKind kind : {RecordKind::kProfile, RecordKind::kHelix}) {
+      const std::optional<double> scatter_um = zeros_at_places_um(data, kind);
+      own_zeros_[static_cast<std::size_t>(kind)] = scatter_um.has_value();
+      if (scatter_um)
+        table.notes.push_back(
+            data.file + ": every " +
+            std::string(kind == RecordKind::kProfile ? "profile" : "helix") +
+            " trace is taken with a zero of its own: the zeros of one flank at several " +
+            (kind == RecordKind::kProfile ? "heights" : "diameters") +
+            printed(" scatter by %.2g um", *scatter_um));
+    }
     for (const InspectionRow& row : data.rows) {
       const std::string wrong = add_inspection_row(data, row, source);
       if (!wrong.empty()) bad.add(row.line, wrong);
@@ -349,8 +363,8 @@ class TableBuilder {
     const double diameter = 2.0 * std::hypot(geometry_.base_radius_mm(), roll);
     const int trace = data.common_zero ? -1
                       : index          ? zeros_.of(record)
-                                       : zeros_.of_trace(record, profile ? roll : z,
-                                                         profile ? z : diameter);
+                              : zeros_.of_trace(record, profile ? roll : z, profile ? z : diameter,
+                                                own_zeros_[static_cast<std::size_t>(row.record)]);
     // Along the circle the flank goes further than along its normal, by 1 / (cos(alpha_y) cos(beta_b)).
     const double share = row.along_circle
                              ? side * geometry_.base_radius_mm() /
@@ -463,6 +477,7 @@ class TableBuilder {
   std::size_t index_values_ = 0;
   std::vector<SizeInTable> sizes_;
   TraceZeros zeros_;
+  std::array<bool, 2> own_zeros_{};  ///< of profiles and helices at several places of a flank
 };
 
 }  // namespace

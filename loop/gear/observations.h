@@ -57,6 +57,13 @@ struct Observations {
   std::vector<Pose> poses;         ///< of each scan
   std::vector<bool> pose_is_free;  ///< of each scan
   int outliers = 0;
+  /// A value of a trace that was left out of the rows, and how far off its neighbours it lay.
+  struct LeftOut {
+    ObservationKind kind = ObservationKind::kProfile;
+    Place place;
+    double off_um = 0.0;
+  };
+  std::vector<LeftOut> left_out;  ///< of traces, those of one file after the other
   std::vector<std::string> notes;
 
   [[nodiscard]] const Place& place(const Observation& row) const { return places[row.first_place]; }

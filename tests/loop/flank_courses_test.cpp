@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/part/flank_courses.h"
+#include "trueflank/loop/gear/fit/flank_courses.h"
 
 #include <gtest/gtest.h>
 

@@ -362,6 +362,26 @@ std::vector<Told> forms(const loop::FlankGeometry& g) {
        1,
        0,
        -1},
+      {"unnamed_body_place",
+       {1, 0, 15, 20, 0, 0, 0, 0, 5, 2, -1, 0},
+       "a swelling of the body towards 15 deg, 20 deg to either side, dying away from the lower "
+       "end "
+       "within 2 mm: there the teeth stand out",
+       "a hollow of the body",
+       2,
+       1,
+       0,
+       -1},
+      {"unnamed_body_place",
+       {3, 1, 15, 20, 0, 0, 0, 0, 0, 0, 0, 0},
+       "3 swellings of the body evenly spaced around the gear, one towards 15 deg, 20 deg to "
+       "either "
+       "side, by 3 um of radius",
+       "3 hollows of the body",
+       2,
+       1,
+       0,
+       -1},
       {"unnamed_step_of_teeth",
        {5, 1, 0, 1, 5, 0, 0},
        "on tooth 5 alone, a step over the face at a height of 5 mm: above it the flanks stand out",
@@ -448,11 +468,12 @@ TEST(SignWords, AreSaidOfEveryFormOfOneCoefficient) {
     if (family.named) continue;
     // (a patch is a dish with an edge; the others have two coefficients)
     static const std::set<std::string> kOther{
-        "unnamed_crossed_order", "unnamed_crossed_waves", "unnamed_patch", "unnamed_waviness",
-        "unnamed_marks", "unnamed_waves_from", "unnamed_waves_mirrored", "unnamed_waves_dying",
-        "unnamed_waves_growing", "unnamed_walking_waves", "unnamed_waves_changing", "unnamed_bow",
-        "unnamed_axis_kink", "unnamed_field", "unnamed_facing", "unnamed_moved_sector",
-        "unnamed_drift_aside", "unnamed_broken_wave", "unnamed_stairs", "unnamed_wave_of_some",
+        "unnamed_crossed_order", "unnamed_crossed_waves", "unnamed_body_wave", "unnamed_patch",
+        "unnamed_waviness", "unnamed_marks", "unnamed_waves_from", "unnamed_waves_mirrored",
+        "unnamed_waves_dying", "unnamed_waves_growing", "unnamed_walking_waves",
+        "unnamed_waves_changing", "unnamed_bow", "unnamed_axis_kink", "unnamed_field",
+        "unnamed_facing", "unnamed_moved_sector", "unnamed_drift_aside", "unnamed_broken_wave",
+        "unnamed_stairs", "unnamed_wave_of_some",
         // (play is said by its axis; the words of those of some teeth are those of all)
         "unnamed_wobble", "unnamed_reversal", "unnamed_kink_of_teeth", "unnamed_bend_of_teeth",
         "unnamed_waviness_of_teeth", "unnamed_dish_of_teeth"};
@@ -482,6 +503,10 @@ TEST(SignWords, SayWhereAWaveIsLargest) {
       HasSubstr("3 times per turn, dying away from the lower end within 2 mm, opposite on "
                 "the two flanks: there the teeth stand counter-clockwise, most at 30 deg "
                 "first"));
+  EXPECT_THAT(said_of(g, effect_of("unnamed_body_wave", {3, 1, 4, 0, 1, 0}), {0, 4}),
+              HasSubstr("the gear is out of round 3 times per turn, more and more by the square "
+                        "from the lower end on towards the upper end, by 4 um of radius at most, "
+                        "at 30 deg first"));
   EXPECT_THAT(said_of(g, effect_of("unnamed_moved_sector", {5, 7}), {0.0, -4.0}),
               HasSubstr("7 teeth from tooth 5 on stand aside as one body, towards 270 deg"));
   EXPECT_THAT(

@@ -72,6 +72,8 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_crossed_around(),
         unnamed_crossed_order(),
         unnamed_crossed_waves(),
+        unnamed_body_wave(),
+        unnamed_body_place(),
         unnamed_swellings_at_end(),
         unnamed_reversal(),
         unnamed_moved_sector(),

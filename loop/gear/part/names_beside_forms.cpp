@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "trueflank/loop/gear/part/flank_courses.h"
+#include "trueflank/loop/gear/fit/flank_courses.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/part_model.h"

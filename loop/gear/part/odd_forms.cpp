@@ -12,8 +12,8 @@
 
 #include "trueflank/base/threads.h"
 #include "trueflank/geometry/linear_equations.h"
+#include "trueflank/loop/gear/fit/flank_fields.h"
 #include "trueflank/loop/gear/paired_sums.h"
-#include "trueflank/loop/gear/part/flank_fields.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/parts_of_forms.h"
 #include "trueflank/loop/gear/table/rows_by_class.h"

@@ -11,6 +11,7 @@
 #include "trueflank/base/units.h"
 #include "trueflank/loop/gear/fit/trial_fit.h"
 #include "trueflank/loop/gear/part/bans.h"
+#include "trueflank/loop/gear/part/body_forms.h"
 #include "trueflank/loop/gear/part/drifts.h"
 #include "trueflank/loop/gear/part/fields.h"
 #include "trueflank/loop/gear/part/forms_around.h"
@@ -84,23 +85,6 @@ std::vector<Effect> forms_and_s_along(const FlankGeometry& geometry, int face, F
   std::vector<Effect> forms = forms_along(geometry, face, flank, true);
   forms.push_back(s_over(face, flank));
   return forms;
-}
-
-/// True of what dies away over nearly the whole flank beside a slope: a slope and a bow, told
-/// another way.
-bool is_slope_beside_slope(const FlankGeometry& geometry, const std::vector<Effect>& with) {
-  constexpr double kNearlyAll = 0.7;
-  const Effect& rise = with.back();
-  if (rise.family != find_family("unnamed_rise")) return false;
-  const bool face = rise.shape[0] != 0.0;
-  const double range_mm =
-      face ? geometry.face_width_mm()
-           : std::abs(geometry.tip_form_roll_mm() - geometry.root_form_roll_mm());
-  return rise.shape[1] > kNearlyAll * range_mm &&
-         std::any_of(with.begin(), with.end() - 1, [&](const Effect& e) {
-           return is_straight(geometry, e) &&
-                  runs_of(geometry, e) == (face ? Runs::kOverFace : Runs::kOverProfile);
-         });
 }
 
 /// Few teeth show a wave over the profile, the same on every tooth, as orders around the gear.
@@ -530,10 +514,11 @@ void tell_as_one_form(PartModel& model) {
   const auto once = [&] {
     if (tell_as_sector(model) || tell_of_the_other_teeth(model) || tell_as_drift(model) ||
         tell_as_drift_aside(model) || tell_as_swellings_at_end(model) || tell_as_repeating(model) ||
-        tell_as_field(model) || tell_as_facing(model) || tell_as_product(model) ||
-        tell_as_corner(model) || tell_as_dish_of_all_flanks(model) ||
-        tell_as_alternating_wave(model) || tell_as_walking_waves(model) ||
-        tell_as_name_with_a_place(model, 0) || tell_as_name_with_a_place(model, 1))
+        tell_as_body_wave(model) || tell_as_body_place(model) || tell_as_field(model) ||
+        tell_as_facing(model) || tell_as_product(model) || tell_as_corner(model) ||
+        tell_as_dish_of_all_flanks(model) || tell_as_alternating_wave(model) ||
+        tell_as_walking_waves(model) || tell_as_name_with_a_place(model, 0) ||
+        tell_as_name_with_a_place(model, 1))
       return true;
     for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
       std::array<std::vector<std::size_t>, 2> along;  // profile, face
@@ -586,7 +571,25 @@ void drop_idle_beside_one_form(PartModel& model) {
   while (model.effects.size() > 1) {
     const auto [idle, loss] = least_missed(model, first_told_here(model), model.effects.size(),
                                            [](const Effect& e) { return !e.family->local; });
-    if (!(loss < kNothing)) return;
+    if (!(loss < kNothing)) break;
+    remove_effect(model, idle);
+  }
+  // (what is followed nearly leaves small echoes)
+  constexpr double kEcho = 0.05, kLittle = 49.0;  // of its size; chi-square: seven errors
+  while (model.effects.size() > 1) {
+    const auto fit = fit_of(model, model.effects);
+    double form_um = 0.0;
+    for (std::size_t e = 0; e < model.effects.size(); ++e)
+      if (model.effects[e].family->is_followed_nearly)
+        form_um = std::max(form_um, fit->effect_size_um(static_cast<int>(e)));
+    const auto is_echo = [&](const Effect& effect) {
+      const auto e = std::find(model.effects.begin(), model.effects.end(), effect);
+      return effect.is_term() &&
+             fit->effect_size_um(static_cast<int>(e - model.effects.begin())) < kEcho * form_um;
+    };
+    const auto [idle, loss] =
+        least_missed(model, first_told_here(model), model.effects.size(), is_echo);
+    if (!(loss < kLittle)) return;
     remove_effect(model, idle);
   }
 }

@@ -8,8 +8,8 @@
 #include <optional>
 #include <set>
 
+#include "trueflank/loop/gear/fit/flank_courses.h"
 #include "trueflank/loop/gear/part/fields.h"
-#include "trueflank/loop/gear/part/flank_courses.h"
 #include "trueflank/loop/gear/part/forms_of_teeth.h"
 #include "trueflank/loop/gear/part/names.h"
 #include "trueflank/loop/gear/part/names_beside_forms.h"

@@ -106,6 +106,21 @@ bool is_straight(const FlankGeometry& geometry, const Effect& effect) {
          std::abs(at(0.1) + at(0.5) - 2.0 * at(0.3)) < kNothing * std::abs(at(0.9) - at(0.1));
 }
 
+bool is_slope_beside_slope(const FlankGeometry& geometry, const std::vector<Effect>& with) {
+  constexpr double kNearlyAll = 0.7;
+  const Effect& rise = with.back();
+  if (rise.family != find_family("unnamed_rise")) return false;
+  const bool face = rise.shape[0] != 0.0;
+  const double range_mm =
+      face ? geometry.face_width_mm()
+           : std::abs(geometry.tip_form_roll_mm() - geometry.root_form_roll_mm());
+  return rise.shape[1] > kNearlyAll * range_mm &&
+         std::any_of(with.begin(), with.end() - 1, [&](const Effect& e) {
+           return is_straight(geometry, e) &&
+                  runs_of(geometry, e) == (face ? Runs::kOverFace : Runs::kOverProfile);
+         });
+}
+
 bool run_alike(const FlankGeometry& geometry, const Effect& a, const Effect& b) {
   constexpr int kOfGrid = 9;
   constexpr double kAlike = 0.9999;

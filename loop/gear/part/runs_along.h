@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "trueflank/loop/gear/effect.h"
 
@@ -31,6 +32,10 @@ enum class Flanks { kAlike, kOfEither };
 /// True where all teeth are moved aside alike at every height: an eccentricity.
 [[nodiscard]] bool moves_the_teeth(const Effect& effect);
 
+/// True where the last of the effects dies away over nearly the whole flank beside a slope: a slope
+/// and a bow, told another way.
+[[nodiscard]] bool is_slope_beside_slope(const FlankGeometry& geometry,
+                                         const std::vector<Effect>& with);
 /// True where both run along the profile, or both along the face, and differ by a factor and a
 /// level.
 [[nodiscard]] bool run_alike(const FlankGeometry& geometry, const Effect& a, const Effect& b);

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "trueflank/loop/gear/part/flank_courses.h"
-#include "trueflank/loop/gear/part/flank_fields.h"
+#include "trueflank/loop/gear/fit/flank_courses.h"
+#include "trueflank/loop/gear/fit/flank_fields.h"
 #include "trueflank/loop/gear/part/names.h"
 #include "trueflank/loop/gear/part/names_beside_forms.h"
 #include "trueflank/loop/gear/part/part_model.h"

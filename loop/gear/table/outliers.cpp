@@ -157,6 +157,10 @@ Level level_of(const Observations& table, const RowNumbers& patch) {
   return {centre, kSigmaOfMedianSize * median(values)};
 }
 
+bool is_of_a_trace(ObservationKind kind) {
+  return kind == ObservationKind::kProfile || kind == ObservationKind::kHelix;
+}
+
 /// The step of an instrument that reads coarsely, by kind and source as patches have them; 0 of
 /// scans, and where a single level and one wild value are all there is.
 std::map<int, double> steps_of_readings(const Observations& table,
@@ -164,7 +168,7 @@ std::map<int, double> steps_of_readings(const Observations& table,
   std::map<int, std::vector<double>> values;
   for (const auto* patch : patches) {
     const ObservationKind kind = table.rows[patch->second.front()].kind;  // of all of them
-    if (kind != ObservationKind::kProfile && kind != ObservationKind::kHelix) continue;
+    if (!is_of_a_trace(kind)) continue;
     for (const std::uint32_t i : patch->second)
       values[patch->first[0]].push_back(table.rows[i].deviation_um);
   }
@@ -281,6 +285,13 @@ void leave_out_outliers(const FlankGeometry& geometry, Observations& table) {
       out[i] = false;
   }
   table.outliers = 0;
+  for (std::size_t k = 0; k < judged.size(); ++k)
+    for (const std::uint32_t i : found[k]) {
+      const Observation& row = table.rows[i];
+      if (out[i] && is_of_a_trace(row.kind))
+        table.left_out.push_back(
+            {row.kind, table.place(row), row.deviation_um - levels[k].centre_um});
+    }
   if (std::find(out.begin(), out.end(), true) != out.end()) take_out(out, table);
 }
 

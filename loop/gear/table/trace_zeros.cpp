@@ -25,15 +25,17 @@ void TraceZeros::Run::add(double along_mm) {
   high_mm = std::max(high_mm, along_mm);
 }
 
-int TraceZeros::of_trace(const Record& record, double along_mm, double across_mm) {
-  Run& run = runs_[{record, std::llround(1000.0 * across_mm)}];
+int TraceZeros::of_trace(const Record& record, double along_mm, double across_mm,
+                         bool own_zero_there) {
+  const long long place = std::llround(1000.0 * across_mm);
+  Run& run = runs_[{record, place}];
   if (run.ends_before(along_mm)) run = {.number = run.number + 1};
   run.add(along_mm);
-  return zero(record, run.number);
+  return zero(record, own_zero_there ? place : kAllPlaces, run.number);
 }
 
-int TraceZeros::zero(const Record& record, int run) {
-  const auto [found, is_new] = zeros_.emplace(std::pair(record, run), count_);
+int TraceZeros::zero(const Record& record, long long place, int run) {
+  const auto [found, is_new] = zeros_.emplace(std::tuple(record, place, run), count_);
   if (is_new) ++count_;
   return found->second;
 }

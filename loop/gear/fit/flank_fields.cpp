@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/part/flank_fields.h"
+#include "trueflank/loop/gear/fit/flank_fields.h"
 
 namespace trueflank::loop {
 

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Forms of the body that carries the teeth: by the direction and the height at which a point lies,
+// not by its tooth. What hardens, clamps, gates and ejectors do.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "trueflank/base/number_text.h"
+#include "trueflank/base/units.h"
+#include "trueflank/loop/gear/effects/along_flank.h"
+#include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/effects/sign_words.h"
+#include "trueflank/loop/gear/effects/simple_courses.h"
+
+namespace trueflank::loop::gear_effects {
+namespace {
+
+/// Where courses stand among the shape values.
+constexpr std::size_t kFaceOfWave = 2, kProfileOfPlace = 4,
+                      kFaceOfPlace = kProfileOfPlace + FlankCourse::kValues;
+
+/// What a displacement outwards is worth along the normal.
+double worth_of_radius(const FlankGeometry& g, const Place& p) {
+  return normal_part(g, p, p.polar_direction[0], p.polar_direction[1]);
+}
+
+bool has_course(const EffectShape& shape, std::size_t first) {
+  return FlankCourse::at(shape, first).kind != FlankCourse::kWhole;
+}
+
+void put_courses_beside(const FlankGeometry& g, const EffectShape& shape, std::size_t first,
+                        double face, std::vector<EffectShape>& shapes) {
+  for (const FlankCourse& course : FlankCourse::at(shape, first).beside(g, face)) {
+    shapes.push_back(shape);
+    course.put_in(shapes.back(), first);
+  }
+}
+
+void add_keys_of_course(const std::string& along, EffectFamily& f) {
+  f.term_keys.push_back({along + "_course", TermKey::Kind::kWord, FlankCourse::kind_words()});
+  f.term_keys.push_back(number(along + "_mm"));
+  f.term_keys.push_back({along + "_towards"});
+  f.term_keys.push_back(number(along + "_half_mm"));
+}
+
+}  // namespace
+
+/// A body that is out of round by so many waves a turn, along a part of its height or all of it, or
+/// wider there (none): outwards (`radial` 1), or all walls along their normals. Oval at one end
+/// from hardening, three lobes where jaws grip, a swelling over a press fit, walls that a light
+/// made thicker on one side. The amplitudes are of the radius or along the normal, where the course
+/// is most. Told in place of what goes around the gear in waves of that order, or over the face
+/// (part/body_forms.cpp), and no candidate of its own.
+EffectFamily unnamed_body_wave() {
+  EffectFamily f = described("unnamed_body_wave", {"order", "radial", "face_course", "face_mm",
+                                                   "face_towards", "face_half_mm"});
+  f.columns = [](const EffectShape& shape) { return shape[0] == 0.0 ? 1 : 2; };
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    const bool on_flank = p.surface == Surface::kFlank;
+    const double size = on_flank ? (shape[1] == 0.0 ? 1.0 : worth_of_radius(g, p)) *
+                                       FlankCourse::at(shape, kFaceOfWave).value(g, 1.0, p.z_mm)
+                                 : 0.0;
+    const double angle = shape[0] * p.polar_rad;
+    c[0] = size * std::cos(angle);
+    if (shape[0] != 0.0) c[1] = size * std::sin(angle);
+  };
+  f.order = first_value;
+  f.faces_a_direction = true;
+  f.needs = [](const EffectShape& shape) {
+    const bool face = has_course(shape, kFaceOfWave);
+    return NeedsToBeSeen{.along_face = face, .several_heights = face};
+  };
+  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
+  f.bends_over_the_face = [](const EffectShape& shape) { return has_course(shape, kFaceOfWave); };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes;
+    put_courses_beside(g, shape, kFaceOfWave, 1.0, shapes);
+    // (a body goes over from one width to another more softly than a flank)
+    constexpr double kSoftest = 0.2;  // of the face
+    const FlankCourse course = FlankCourse::at(shape, kFaceOfWave);
+    if (course.kind == FlankCourse::kStep && course.half_mm > 0.0)
+      for (const double times : {0.7, 0.9, 0.97, 1.03, 1.1, 1.4}) {
+        shapes.push_back(shape);
+        FlankCourse beside = course;
+        beside.half_mm = std::min(times * course.half_mm, kSoftest * g.face_width_mm());
+        beside.put_in(shapes.back(), kFaceOfWave);
+      }
+    return shapes;
+  };
+  f.values_sought = [](const EffectShape& shape) {
+    return FlankCourse::at(shape, kFaceOfWave).values_sought();
+  };
+  f.term_keys = {{"order"}, {"moved", TermKey::Kind::kWord, {"along_normal", "outwards"}}};
+  add_keys_of_course("face", f);
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const double direction_rad = told.direction_rad();
+    std::string where = FlankCourse::at(shape, kFaceOfWave).words(told.geometry, 1.0);
+    if (!where.empty()) where = ", " + where;
+    if (shape[0] == 0.0) {
+      const int sign = told.sign();
+      const std::string what = sign == 0 ? "wider or narrower" : sign > 0 ? "wider" : "narrower";
+      return "the body is " + what + where +
+             (sign == 0 ? "" : printed(", by %.3g um of radius", std::abs(told.amounts[0]))) +
+             ", as over a press fit or a core";
+    }
+    std::string text = shape[1] == 0.0 ? "the walls stand out and lie back by their direction, "
+                                       : "the gear is out of round ";
+    text += times_per_turn(shape[0]) + where;
+    if (!std::isnan(direction_rad))
+      text += (shape[1] == 0.0 ? ", most"
+                               : printed(", by %.3g um of radius at most",
+                                         std::hypot(told.amounts[0], told.amounts[1]))) +
+              first_at(direction_rad, shape[0]).substr(shape[1] == 0.0 ? 1 : 0);
+    return text + (shape[1] == 0.0 ? ", as from a light, a bath or a mould that differs by side"
+                                   : ", as from what grips one end, or from hardening");
+  };
+  return f;
+}
+
+/// A place of the body that stands out or lies back: by the direction in which a point lies, along
+/// the normal or, `radial` 1, outwards; all over profile and face or along a part of them. A sink
+/// beside a gate, the mark of an ejector, a press fit over a keyway. Told in place of forms of some
+/// teeth that lie side by side (part/body_forms.cpp), and no candidate of its own.
+EffectFamily unnamed_body_place() {
+  EffectFamily f = described("unnamed_body_place", {"number", "radial", "at_deg", "half_deg"});
+  for (const std::string along : {"profile", "face"})
+    for (const char* value : {"_course", "_mm", "_towards", "_half_mm"})
+      f.shape_names.push_back(along + value);
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    constexpr double kNothing = 6.0;  // half widths
+    const double half = rad_from_deg(shape[3]), apart = kTwoPi / shape[0];
+    const double off = std::remainder(p.polar_rad - rad_from_deg(shape[2]), apart);
+    double size = 0.0;
+    for (const double next : {-apart, 0.0, apart})  // (one place: once)
+      if (std::abs(off + next) < std::min(kNothing * half, kPi + half))
+        size += bell(off + next, half);
+    if (size == 0.0) return;
+    size *= FlankCourse::at(shape, kProfileOfPlace).value(g, 0.0, p.roll_mm) *
+            FlankCourse::at(shape, kFaceOfPlace).value(g, 1.0, p.z_mm);
+    c[0] = shape[1] == 0.0 ? size : size * worth_of_radius(g, p);
+  };
+  f.needs = [](const EffectShape& shape) {
+    const bool profile = has_course(shape, kProfileOfPlace), face = has_course(shape, kFaceOfPlace);
+    return NeedsToBeSeen{.along_profile = profile,
+                         .along_face = face,
+                         .several_heights = face,
+                         .crossed = profile && face};
+  };
+  f.faces_a_direction = true;
+  f.is_followed_nearly = true;
+  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
+  f.bends_over_the_face = [](const EffectShape& shape) { return has_course(shape, kFaceOfPlace); };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    constexpr double kWidest_deg = 75.0;
+    const double narrowest_deg = 90.0 / g.teeth();
+    std::vector<EffectShape> shapes;
+    for (const double off : {-0.5, -0.15, -0.04, 0.0, 0.04, 0.15, 0.5})
+      for (const double times : {0.8, 0.93, 0.98, 1.0, 1.02, 1.07, 1.25}) {
+        EffectShape beside = shape;
+        beside[2] += off * shape[3];
+        beside[3] = std::clamp(times * shape[3], narrowest_deg,
+                               std::min(kWidest_deg, 0.4 * 360.0 / shape[0]));
+        if (beside != shape) shapes.push_back(std::move(beside));
+      }
+    shapes.push_back(shape);
+    shapes.back()[1] = 1.0 - shape[1];
+    put_courses_beside(g, shape, kProfileOfPlace, 0.0, shapes);
+    put_courses_beside(g, shape, kFaceOfPlace, 1.0, shapes);
+    return shapes;
+  };
+  f.values_sought = [](const EffectShape& shape) {
+    constexpr int kPlaceAndWidth = 2;
+    return kPlaceAndWidth + FlankCourse::at(shape, kProfileOfPlace).values_sought() +
+           FlankCourse::at(shape, kFaceOfPlace).values_sought();
+  };
+  f.term_keys = {{"number"},
+                 {"moved", TermKey::Kind::kWord, {"along_normal", "outwards"}},
+                 number("at_deg"),
+                 number("half_deg")};
+  add_keys_of_course("profile", f);
+  add_keys_of_course("face", f);
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const int sign = told.sign();
+    const double apart_deg = 360.0 / shape[0],
+                 at_deg = std::fmod(std::fmod(shape[2], apart_deg) + apart_deg, apart_deg);
+    std::string text = shape[0] == 1.0 ? a_swelling(sign) + " of the body"
+                                       : printed("%.0f ", shape[0]) +
+                                             (sign > 0   ? "swellings"
+                                              : sign < 0 ? "hollows"
+                                                         : "swellings or hollows") +
+                                             " of the body evenly spaced around the gear";
+    text += std::string(shape[0] == 1.0 ? "" : ", one") + printed(" towards %.0f deg", at_deg) +
+            printed(", %.2g deg to either side", shape[3]);
+    for (const auto& [first, face] :
+         {std::pair(kProfileOfPlace, 0.0), std::pair(kFaceOfPlace, 1.0)})
+      if (const std::string where = FlankCourse::at(shape, first).words(told.geometry, face);
+          !where.empty())
+        text += ", " + where;
+    if (shape[1] != 0.0 && sign != 0)
+      text += printed(", by %.3g um of radius", std::abs(told.amounts[0]));
+    return text + ": there the teeth " + (sign == 0 ? "stand out or lie back" : stand(sign)) +
+           " on both flanks, as from a gate, an ejector or a clamp";
+  };
+  return f;
+}
+
+}  // namespace trueflank::loop::gear_effects

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "trueflank/loop/gear/part/part_model.h"
+
+namespace trueflank::loop {
+
+/// A body that is out of round along a part of its height, for what goes around the gear in waves
+/// of one order, along the face or not.
+[[nodiscard]] bool tell_as_body_wave(PartModel& model);
+/// Places of the body that stand out or lie back, by direction and height: one for forms of teeth
+/// that lie side by side; several, evenly spaced, for waves of an order and its multiples, or for
+/// forms of teeth that lie so; one for each run of teeth where a comb has parts of them.
+[[nodiscard]] bool tell_as_body_place(PartModel& model);
+
+}  // namespace trueflank::loop

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "tests/loop/made_gears.h"
+
+// One or two values of a trace that lie far off by themselves: told in a note, and nothing named.
+namespace trueflank::test {
+namespace {
+
+InspectionOptions all_teeth(unsigned seed) {
+  InspectionOptions options;
+  options.noise_um = 0.5;
+  options.points = 45;
+  options.seed = seed;
+  return options;
+}
+
+std::string notes_of(const loop::LoopResult& result) {
+  std::string text;
+  for (const std::string& note : result.notes) text += note + "\n";
+  return text;
+}
+
+/// Rows of a trace, in the order of the file.
+std::vector<std::size_t> trace_of(const loop::InspectionData& data, loop::RecordKind kind,
+                                  int tooth, Flank flank) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < data.rows.size(); ++i)
+    if (data.rows[i].record == kind && data.rows[i].tooth == tooth && data.rows[i].flank == flank)
+      rows.push_back(i);
+  return rows;
+}
+
+TEST(FarValues, AreToldWithToothPlaceAndHeight) {
+  const MadeGear gear = spur(23);
+  for (unsigned seed = 1; seed <= 4; ++seed)
+    for (const int count : {1, 2}) {
+      loop::InspectionData data = inspection_of(gear, {}, all_teeth(seed));
+      const bool profile = seed % 2 == 0;
+      const auto rows = trace_of(
+          data, profile ? loop::RecordKind::kProfile : loop::RecordKind::kHelix, 7, Flank::kLeft);
+      const std::size_t middle = rows.size() / 2;
+      for (int k = 0; k < count; ++k)
+        data.rows[rows[middle + static_cast<std::size_t>(k)]].deviation_um -= 5.5;
+      const auto result = close(gear, data);
+      const std::string notes = notes_of(result);
+      EXPECT_NE(notes.find(std::string(count == 1 ? "one value" : "two values") +
+                           " of tooth 7, left flank, " + (profile ? "profile" : "helix")),
+                std::string::npos)
+          << seed << " " << notes << list(result);
+      EXPECT_NE(notes.find("um low"), std::string::npos) << notes;
+      EXPECT_FALSE(has_name(result)) << list(result);
+    }
+}
+
+TEST(FarValues, OfNoiseAreNone) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const auto result = close(spur(23), inspection_of(spur(23), {}, all_teeth(seed)));
+    EXPECT_EQ(notes_of(result).find("too few to tell"), std::string::npos) << notes_of(result);
+  }
+}
+
+}  // namespace
+}  // namespace trueflank::test
