@@ -65,6 +65,9 @@ struct EffectFamily : EffectFacts {
   Correctable correctable = Correctable::kGeometry;
   /// Ways of making that can have it, each with its cause; empty: any.
   std::vector<CauseOfMaking> causes = {};
+  /// What the maker should do first, by way of making, in place of what `correction` begins with.
+  /// Empty: that holds for all.
+  std::vector<CauseOfMaking> corrections = {};
   /// Declared by a user: name and formula of every parameter, as declared.
   std::vector<std::pair<std::string, std::string>> formulas = {};
 

@@ -84,7 +84,7 @@ class Describer {
     if (sources_.makings == kAnyMaking)
       for (const CauseOfMaking& cause : family.causes)
         found.by_process.emplace_back(making_text(cause.makings), cause.cause);
-    found.correction = family.correction;
+    found.correction = correction_text(family.correction, family.corrections, sources_.makings);
     found.flank = flank_text(effect.flank);
     found.p_value = chosen.p_value;
     found.bic_gain = chosen.bic_gain;
@@ -191,6 +191,11 @@ class Describer {
     }
     found.sentence = plain_sentence(found, members.front());
     found.sure = sure_words(found.p_value, found.confounded_with);
+    const bool may_be_nothing =
+        !found.terms.empty() &&
+        std::all_of(found.terms.begin(), found.terms.end(),
+                    [](const Term& t) { return t.half_width >= t.amplitude(); });
+    if (may_be_nothing) found.sure = "a guess: its size may as well be nothing";
   }
 
   /// What the teeth that were traced do not tell apart, with the first effect that it is true of.

@@ -93,4 +93,15 @@ std::string causes_text(const std::vector<CauseOfMaking>& causes, Makings making
   return text;
 }
 
+std::string correction_text(const std::string& correction,
+                            const std::vector<CauseOfMaking>& by_making, Makings makings) {
+  const auto own = std::find_if(by_making.begin(), by_making.end(), [&](const CauseOfMaking& one) {
+    return (makings & ~one.makings) == 0;
+  });
+  if (own == by_making.end()) return correction;
+  const std::size_t first = correction.find("; ");
+  const std::string others = first == std::string::npos ? "" : correction.substr(first + 2);
+  return others.empty() || others == own->cause ? own->cause : own->cause + "; " + others;
+}
+
 }  // namespace trueflank::loop

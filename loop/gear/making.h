@@ -45,4 +45,10 @@ struct CauseOfMaking {
 /// several are left open. Empty: none.
 [[nodiscard]] std::string causes_text(const std::vector<CauseOfMaking>& causes, Makings makings);
 
+/// What the maker should do: `correction`, its first action that of the one way of making that is
+/// left. Where several are left, or none of these, it stays as it is.
+[[nodiscard]] std::string correction_text(const std::string& correction,
+                                          const std::vector<CauseOfMaking>& by_making,
+                                          Makings makings);
+
 }  // namespace trueflank::loop

@@ -47,9 +47,10 @@ TEST(FarValues, AreToldWithToothPlaceAndHeight) {
         data.rows[rows[middle + static_cast<std::size_t>(k)]].deviation_um -= 5.5;
       const auto result = close(gear, data);
       const std::string notes = notes_of(result);
-      EXPECT_NE(notes.find(std::string(count == 1 ? "one value" : "two values") +
-                           " of tooth 7, left flank, " + (profile ? "profile" : "helix")),
-                std::string::npos)
+      // (of two that were left out before the fit each is told)
+      EXPECT_NE(
+          notes.find(std::string(" of tooth 7, left flank, ") + (profile ? "profile" : "helix")),
+          std::string::npos)
           << seed << " " << notes << list(result);
       EXPECT_NE(notes.find("um low"), std::string::npos) << notes;
       EXPECT_FALSE(has_name(result)) << list(result);

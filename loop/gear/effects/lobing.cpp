@@ -17,6 +17,10 @@ EffectFamily lobing() {
               {kWireCutting | kBeamCutting, "stresses of the blank set free"},
               {kAnyMaking, "press fit of a ring, ovality"}};
   f.correction = "clamp softer or move the gates; a radial wave in the model where it repeats";
+  f.corrections = {{kMachining, "clamp softer"},
+                   {kInMould, "move the gates"},
+                   {kPrinting, "look at infill, supports and backlash of the axes"},
+                   {kWireCutting | kBeamCutting, "set the blank's stresses free before cutting"}};
   f.parameters = {"amplitude_um", "phase_deg"};
   f.shape_names = {"order"};
   f.form = ParameterForm::kWave;

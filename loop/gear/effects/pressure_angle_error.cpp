@@ -17,6 +17,9 @@ EffectFamily pressure_angle_error() {
               {kPrinting | kContourCutting, "scale or line width that changes towards the tip"},
               {kInMould, "the cavity was not made for the shrinkage of the teeth"}};
   f.correction = "correct the angle of tool or dresser; pressure angle of the model";
+  f.corrections = {{kGearMachines, "correct the angle of tool or dresser"},
+                   {kPrinting | kContourCutting, "correct scale and width of line or kerf"},
+                   {kInMould, "make the cavity for the shrinkage of the teeth"}};
   f.parameters = {"slope_um"};
   f.one_flank_too = true;
   f.sentence = [](const FlankGeometry&, const FoundEffect& found) {

@@ -12,10 +12,15 @@ EffectFamily scale() {
   f.form_word = "size_of_part";
   f.form_told = {"the whole part is too big",
                  "the whole part is too small"};
-  f.causes = {{kPrinting | kInMould, "shrinkage, or steps per millimetre of a printer"},
+  f.causes = {{kPrinting, "shrinkage, or steps per millimetre of the printer"},
+              {kInMould, "shrinkage"},
               {kContourCutting, "scale of the axes"},
               {kAnyMaking, "the part or the measuring device was not at 20 degrees"}};
   f.correction = "scale mould or print by 1/(1 + scale)";
+  f.corrections = {{kPrinting, "scale the print by 1/(1 + scale)"},
+                   {kInMould, "scale the mould by 1/(1 + scale)"},
+                   {kMachining | kWireCutting | kBeamCutting,
+                    "measure at 20 degrees; then correct the scale of the axes"}};
   f.parameters = {"percent"};
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape&, double* c) {
     constexpr double kUmPerPercent = 10.0;  // of a millimetre

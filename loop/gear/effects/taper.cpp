@@ -17,6 +17,11 @@ EffectFamily taper() {
       {kContourCutting, "draft of the beam, lag of the wire, deflection of the cutter"},
       {kInMould, "draft"}};
   f.correction = "set tailstock or axis slope, or the draft of the mould; taper the model the other way";
+  f.corrections = {{kGearMachines, "set tailstock or axis slope"},
+                   {kMilling, "allow for the deflection of the cutter"},
+                   {kWireCutting | kBeamCutting, "set the taper compensation of wire or beam"},
+                   {kPrinting, "taper the model the other way"},
+                   {kInMould, "correct the draft of mould or die"}};
   f.parameters = {"slope_um"};
   f.told_from = {
       {"elephant_foot", "helix traces or sections at several heights near the lower face"}};

@@ -17,6 +17,10 @@ EffectFamily tooth_thickness() {
               {kPrinting | kContourCutting | kInMould,
                "profile shift or thinning of the model, width of line or kerf"}};
   f.correction = "correct the infeed; profile shift or thinning of the model";
+  f.corrections = {{kMachining, "correct the infeed"},
+                   {kPrinting, "correct the width of line or the contour (XY) compensation"},
+                   {kWireCutting | kBeamCutting, "correct the kerf"},
+                   {kInMould, "correct the cavity"}};
   f.parameters = {"amount_um"};
   f.shows_in_sizes = true;
   // both flanks of the tooth, from the reference circle to the flank's normal
