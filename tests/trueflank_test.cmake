@@ -15,16 +15,73 @@ endfunction()
 set(TRUEFLANK_TEST_MEMORY
   "GLIBC_TUNABLES=glibc.malloc.mmap_threshold=1073741824:glibc.malloc.trim_threshold=1073741824:glibc.malloc.top_pad=8388608:glibc.malloc.arena_max=1")
 
+# All folders as one shared library, for tests of a release. What a test compiles for itself, with less optimisation, stays
+# its own there: linked statically, the libraries would take the templates that both use from the test
+# (docs/decisions/0553). Elsewhere tests link to the folders that they name.
+if(CMAKE_BUILD_TYPE STREQUAL "Release")
+  set(TRUEFLANK_TOGETHER ON)
+else()
+  set(TRUEFLANK_TOGETHER OFF)
+endif()
+function(trueflank_together target)
+  set(folders base geometry train kinds search check solid machine export design loop report session)
+  list(TRANSFORM folders PREPEND trueflank_ OUTPUT_VARIABLE libraries)
+  list(TRANSFORM libraries REPLACE "(.+)" "$<TARGET_FILE:\\1>" OUTPUT_VARIABLE archives)
+  list(JOIN archives "," whole)
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp)
+  file(CONFIGURE OUTPUT ${source} CONTENT "// Nothing: all folders are linked into its library.\n")
+  add_library(${target} SHARED ${source})
+  # the archives whole, and once more as what brings the packages
+  target_link_libraries(${target} PUBLIC trueflank_tested_headers
+    PRIVATE -Wl,--whole-archive,${whole},--no-whole-archive ${libraries} ${ARGN})
+  target_link_options(${target} PRIVATE LINKER:-Bsymbolic-functions)
+endfunction()
+if(TRUEFLANK_TOGETHER)
+  add_library(trueflank_tested_headers INTERFACE)
+  trueflank_find_package(Eigen eigen call)
+  trueflank_find_package(expected expected call)
+  target_link_libraries(trueflank_tested_headers INTERFACE ${eigen} ${expected})
+  target_include_directories(trueflank_tested_headers INTERFACE ${PROJECT_BINARY_DIR}/include)
+  target_compile_features(trueflank_tested_headers INTERFACE cxx_std_20)
+  trueflank_together(trueflank_tested)
+  trueflank_together(trueflank_tested_same_digits trueflank_elementary_functions)
+endif()
+
+# Links a program of the tests, or (HEADERS) a library that such programs link to, to folders, by their targets
+# trueflank::<folder>, and to other libraries.
+#   trueflank_link_tested(<target> <scope> [HEADERS] [SAME_DIGITS] <library>...)
+function(trueflank_link_tested target scope)
+  cmake_parse_arguments(arg "HEADERS;SAME_DIGITS" "" "" ${ARGN})
+  set(libraries ${arg_UNPARSED_ARGUMENTS})
+  if(arg_SAME_DIGITS)
+    target_link_libraries(${target} ${scope} trueflank_elementary_functions)
+  endif()
+  if(TRUEFLANK_TOGETHER)
+    list(FILTER libraries EXCLUDE REGEX "^trueflank::")
+    set(together trueflank_tested)
+    if(arg_HEADERS)
+      set(together trueflank_tested_headers)
+    elseif(arg_SAME_DIGITS)
+      set(together trueflank_tested_same_digits)
+    endif()
+    list(APPEND libraries ${together})
+  endif()
+  target_link_libraries(${target} ${scope} ${libraries})
+endfunction()
+
 # The tests of one folder:
-#   trueflank_test(<name> [SLOW] [WHOLE | TOGETHER <filter>] [OPTIMISED] [COST <s>] SOURCES <file>... [LIBRARIES <target>...])
+#   trueflank_test(<name> [SLOW] [WHOLE | TOGETHER <filter>] [OPTIMISED] [SAME_DIGITS] [COST <s>]
+#                  SOURCES <file>... [LIBRARIES <target>...])
 # builds test_<name> and makes every TEST in it a test of its own, `<name>.Subject.Statement`.
 # It links to trueflank::<name> where there is such a folder, to LIBRARIES, and to tests/support.
-# SLOW: labelled slow, not <name>; not run by the dev preset. WHOLE: one ctest entry for all, for
-# tests that share something expensive; TOGETHER: one for those of a gtest filter without dashes, `<name>.<filter>`. OPTIMISED: what the sources themselves compute takes long; others are compiled with -O1
-# in a release, in two thirds of the time (docs/decisions/0250). COST: the longest start first, so that no processor waits for them at the end; seconds
+# SLOW: labelled slow, not <name>; not run by the dev preset. WHOLE: one ctest entry for all, for tests that share
+# something expensive; TOGETHER: one for those of a gtest filter without dashes, `<name>.<filter>`.
+# OPTIMISED: what the sources themselves compute takes long; others are compiled with -Og in a release, in two thirds of
+# the time (docs/decisions/0553). SAME_DIGITS: with the elementary functions of our programs, for recorded figures, which
+# are those of every processor. COST: the longest start first, so that no processor waits for them at the end; seconds
 # on a quiet one, for SLOW 10 where nothing is said.
 function(trueflank_test name)
-  cmake_parse_arguments(arg "SLOW;WHOLE;OPTIMISED" "COST;TOGETHER" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "SLOW;WHOLE;OPTIMISED;SAME_DIGITS" "COST;TOGETHER" "SOURCES;LIBRARIES" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "trueflank_test(${name}): what is `${arg_UNPARSED_ARGUMENTS}`?")
   endif()
@@ -33,17 +90,22 @@ function(trueflank_test name)
   endif()
   set(target test_${name})
   add_executable(${target} ${arg_SOURCES})
-  if(TARGET trueflank::${name})
-    target_link_libraries(${target} PRIVATE trueflank::${name})
+  set(digits "")
+  if(arg_SAME_DIGITS)
+    set(digits SAME_DIGITS)
   endif()
-  target_link_libraries(${target} PRIVATE
-    ${arg_LIBRARIES} trueflank::kinds trueflank_test_support trueflank_options GTest::gtest_main)
+  set(folder "")
+  if(TARGET trueflank::${name})
+    set(folder trueflank::${name})
+  endif()
+  trueflank_link_tested(${target} PRIVATE ${digits}
+    ${folder} ${arg_LIBRARIES} trueflank::kinds trueflank_test_support trueflank_options GTest::gtest_main)
   target_compile_options(${target} PRIVATE -Wno-conversion)
   if(arg_OPTIMISED)
     target_compile_options(${target} PRIVATE -fPIC)  # as its precompiled headers
     target_precompile_headers(${target} REUSE_FROM trueflank_precompiled_library)
   else()
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Og>)
     target_precompile_headers(${target} REUSE_FROM trueflank_precompiled_test)
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 20)

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/discovery/trend_scan.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <utility>
 
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/distributions.h"
 
 namespace trueflank::loop {
@@ -25,7 +25,7 @@ MatrixXd polynomials(Index rows, Index count) {
     for (Index k = 0; k < count; ++k)
       powers(i, k) = std::cos(static_cast<double>(k) * std::acos(x));
   }
-  return Eigen::HouseholderQR<MatrixXd>(powers).householderQ() * MatrixXd::Identity(rows, count);
+  return orthonormal_columns(powers);
 }
 
 /// The power that errors would have at a degree, continued from the degrees `from` on: the steepest

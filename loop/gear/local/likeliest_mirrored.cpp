@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Waves over the profile that are the same on every tooth, each flank in a phase of its own, as
 // residuals in cells look like most beside other effects.
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "trueflank/base/units.h"
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/gear/effects/along_flank.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/local/product_cells.h"
@@ -68,8 +67,7 @@ class BothProfiles {
 class Beside {
  public:
   Beside(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values)
-      : span_(Eigen::HouseholderQR<Eigen::MatrixXd>(columns).householderQ() *
-              Eigen::MatrixXd::Identity(columns.rows(), columns.cols())),
+      : span_(orthonormal_columns(columns)),
         left_(values - span_ * (span_.transpose() * values)),
         taken_(values.squaredNorm() - left_.squaredNorm()) {}
   [[nodiscard]] double taken_with(const Eigen::MatrixXd& others) const {
@@ -77,7 +75,7 @@ class Beside {
     const Eigen::VectorXd right = own.transpose() * left_;
     Eigen::MatrixXd normal = own.transpose() * own;
     normal.diagonal().array() += 1e-6 * others.squaredNorm();
-    return taken_ + right.dot(normal.ldlt().solve(right));
+    return taken_ + right.dot(symmetric_solution(normal, right));
   }
 
  private:

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Waves of an order around the gear whose size follows a course along the flanks, as residuals in
 // cells look like most.
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -9,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/local/product_cells.h"
 
@@ -30,7 +30,7 @@ struct MomentsOfOrder {
       Eigen::MatrixXd own = normal.block(first, first, count, count);
       own.diagonal().array() += kAnything * own.trace();
       const Eigen::VectorXd product = right.segment(first, count);
-      return product.dot(own.ldlt().solve(product));
+      return product.dot(symmetric_solution(own, product));
     };
     return beside_plain ? taken(0, 4) - taken(2, 2) : taken(0, 2);
   }

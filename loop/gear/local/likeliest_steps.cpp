@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Steps with an edge, as residuals in cells look like most: the same on every tooth, beside levels,
 // and beside slopes and bows.
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/gear/effects/along_flank.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/local/product_cells.h"
@@ -58,7 +58,7 @@ class FlanksAlike {
     const Eigen::MatrixXd weighted = weight_.asDiagonal() * all;
     Eigen::MatrixXd normal = all.transpose() * weighted;
     normal.diagonal().array() += 1e-9 * normal.trace();
-    return course - all * normal.ldlt().solve(weighted.transpose() * course);
+    return course - all * symmetric_solution(normal, weighted.transpose() * course);
   }
 
   InCells weight_ = InCells::Zero(), value_ = InCells::Zero();
