@@ -2,6 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "tests/loop/made_gears.h"
 #include "trueflank/loop/gear/correction.h"
 #include "trueflank/loop/result/describe.h"
@@ -205,6 +210,34 @@ TEST(PossibleCauses, NoEffectMovesAFlankByMoreThanHalfAModule) {
       for (const auto& term : effect.terms) EXPECT_LT(term.amplitude(), 100.0) << list(result);
     }
   }
+}
+
+TEST(PossibleCauses, WhatToDoFollowsTheProcess) {
+  const Process tapered = grown([](auto&, const FlankSpot& s, auto&) { return 20.0 * s.v; });
+  const std::vector<std::pair<std::string, std::string>> first_actions{
+      {"grinding", "set tailstock or axis slope"},
+      {"fdm", "taper the model the other way"},
+      {"moulding", "correct the draft of mould or die"},
+      {"wire-edm", "set the taper compensation"}};
+  for (const auto& [process, action] : first_actions) {
+    const auto result = close_made_by({process}, tapered);
+    ASSERT_NE(find(result, "taper"), nullptr) << list(result);
+    const std::string& sentence = find(result, "taper")->sentence;
+    EXPECT_THAT(sentence, HasSubstr(action)) << process;
+    for (const auto& [other, foreign] : first_actions)
+      if (other != process) EXPECT_THAT(sentence, Not(HasSubstr(foreign))) << process;
+  }
+}
+
+/// No way of making is without a first action of its own where the others have one.
+TEST(PossibleCauses, EveryProcessHasAnAction) {
+  for (const loop::EffectFamily& family : loop::effect_library())
+    for (unsigned bit = 1; !family.corrections.empty() && bit < loop::kAnyMaking; bit <<= 1U)
+      if (loop::can_have(bit, family))
+        EXPECT_EQ(std::count_if(family.corrections.begin(), family.corrections.end(),
+                                [&](const auto& one) { return (one.makings & bit) != 0; }),
+                  1)
+            << family.id << " " << loop::making_text(bit);
 }
 
 TEST(PossibleCauses, NamesOfProcessesSayHowAPartIsMade) {
