@@ -22,14 +22,15 @@ thread_local int t_memory_given = -1;
 
 }  // namespace
 
-void* operator new(std::size_t size) {
+// (not inlined: g++ takes a free() that it sees beside a new for a mistake)
+[[gnu::noinline]] void* operator new(std::size_t size) {
   if (t_memory_given == 0) throw std::bad_alloc();
   if (t_memory_given > 0) --t_memory_given;
   if (void* given = std::malloc(size == 0 ? 1 : size)) return given;
   throw std::bad_alloc();
 }
-void operator delete(void* given) noexcept { std::free(given); }
-void operator delete(void* given, std::size_t) noexcept { std::free(given); }
+[[gnu::noinline]] void operator delete(void* given) noexcept { std::free(given); }
+[[gnu::noinline]] void operator delete(void* given, std::size_t) noexcept { std::free(given); }
 
 namespace trueflank {
 namespace {
