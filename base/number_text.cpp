@@ -126,7 +126,7 @@ std::string printed(const char* format, ...) {
         append_padded(text, d, real_text(d, *at, value), std::isfinite(value));
         break;
       }
-      default: TRUEFLANK_EXPECTS(!"a letter that printed() knows");
+      default: TRUEFLANK_EXPECTS(false && "a letter that printed() knows");
     }
   }
   va_end(arguments);

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <exception>
 #include <list>
 #include <utility>
 
@@ -32,7 +33,7 @@ class KeptThreads {
       ++threads_, ++begun_;
       try {
         std::thread([this] { serve(); }).detach();
-      } catch (const std::system_error&) {
+      } catch (const std::exception&) {  // no thread, or no memory to begin one
         --threads_, --begun_;
         break;  // those that run share what there is to do
       }

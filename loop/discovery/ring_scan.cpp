@@ -22,7 +22,7 @@ using Eigen::VectorXd;
 constexpr int kOrders = 3999, kEnough = 12;
 
 constexpr int kKinds = 5;
-constexpr double kTests = 2.0 * kKinds;  // two of every kind
+constexpr double kTestsOfKinds = 2.0 * kKinds;  // two of every kind
 /// What is told is compared with the level once more, after it was multiplied.
 constexpr double kSlack = 1.0 + 1e-9;
 constexpr int kMostEvery = 8;
@@ -73,7 +73,7 @@ class RingScan {
     if (ask && !saws_too) larger[at(RingKind::kSaw)] = kOrders;
     // Of a kind nothing more is asked once it cannot be what is told: another will be less likely,
     // or its F test says less already, or it is above the level.
-    const double open_below = kSlack * level / kTests;
+    const double open_below = kSlack * level / kTestsOfKinds;
     const auto is_open = [&](std::size_t k) {
       return larger[k] <= kEnough &&
              (1.0 + larger[k]) / (1.0 + kOrders) <= std::min(by_size[k], open_below);
@@ -100,7 +100,7 @@ class RingScan {
       least = p;
       best = k;
     }
-    return finding(seen[best], best, std::min(1.0, kTests * least));
+    return finding(seen[best], best, std::min(1.0, kTestsOfKinds * least));
   }
 
  private:

@@ -23,7 +23,7 @@ FILE_LIMIT = 1 << 40  # bytes; not reached
 REMEDIES = {b"No space left": b"free some space", b"File too large": b"beyond 1099511627776 bytes here; wanted: a higher limit (ulimit -f",
             b"Too many open files": b"open here; wanted: a higher limit (ulimit -n"}
 SLOW_ONLY = {"certified", "wished"}
-LONG = {"fix", "shifts", "bench", "certified"}  # up to a second each: at a quarter of the places
+LONG = {"fix", "shifts", "bench", "scan", "certified"}  # up to a second each: at a quarter of the places
 GEAR = """format = 1
 name = "g"
 [gearbox]
@@ -148,6 +148,7 @@ def main():
     gear, pair = OUTPUT / "gear.toml", OUTPUT / "pair.toml"
     assert run(["make", gear, "-o", OUTPUT / "golden", "--formats", "stl,obj", "--tolerance-um", 20]).returncode == 0
     golden = OUTPUT / "golden"
+    assert run(["make", gear, "-o", OUTPUT / "worn", "--formats", "ply", "--correct", OUTPUT / "loop.json"]).returncode == 0
     assert run(["search", OUTPUT / "short.toml", "-o", OUTPUT / "searched"]).returncode == 0
     searched = (OUTPUT / "searched" / "search.journal").read_text().splitlines(keepends=True)
 
@@ -171,6 +172,7 @@ def main():
         "resume": interrupted,
         "merge": lambda d: ["search", OUTPUT / "short.toml", "-o", d, "--merge", OUTPUT / "searched"],
         "loop": lambda d: ["loop", gear, OUTPUT / "traces.csv", "--gear", "gear", "-o", d],
+        "scan": lambda d: ["loop", gear, OUTPUT / "worn" / "gear.ply", "--gear", "gear", "-o", d],
         "search": lambda d: ["search", OUTPUT / "short.toml", "-o", d, "--threads", 2],
     }
     kinds = {"certified": ("malloc",), "wished": ("thread", "rename", "open", "close", "write")}

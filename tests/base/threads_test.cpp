@@ -7,9 +7,30 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
 #include <stdexcept>
 #include <thread>
 #include <vector>
+
+namespace {
+
+// Of the thread that sets it: how many times memory is given yet. Negative: always.
+thread_local int t_memory_given = -1;
+
+}  // namespace
+
+// (not inlined: g++ takes a free() that it sees beside a new for a mistake)
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  if (t_memory_given == 0) throw std::bad_alloc();
+  if (t_memory_given > 0) --t_memory_given;
+  if (void* given = std::malloc(size == 0 ? 1 : size)) return given;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* given) noexcept { std::free(given); }
+[[gnu::noinline]] void operator delete(void* given, std::size_t) noexcept { std::free(given); }
 
 namespace trueflank {
 namespace {
@@ -74,6 +95,33 @@ TEST(Threads, SeveralCallersShareThem) {
       });
   }
   EXPECT_EQ(done, 5 * 200 * 7);
+}
+
+// Wherever in it memory fails, the work is done or the failure thrown, and nothing of it is left to
+// the threads that are kept.
+TEST(Threads, WithoutMemoryForAThreadTheWorkIsDoneWithoutIt) {
+  using std::chrono::milliseconds;
+  for_each_piece(8, [](std::size_t) {});
+  std::this_thread::sleep_for(milliseconds(700));  // none is kept: the next are begun anew
+  int failed = 0;
+  for (int given = 0; given < 8; ++given) {
+    std::atomic<int> done{0};
+    bool thrown = false;
+    t_memory_given = given;
+    try {
+      const Help help(4, [&] { ++done; });
+      t_memory_given = -1;
+    } catch (const std::bad_alloc&) {
+      t_memory_given = -1;
+      thrown = true;
+    }
+    failed += thrown ? 1 : 0;
+    const int before = done;
+    for_each_piece(50, [](std::size_t) { std::this_thread::sleep_for(milliseconds(1)); });
+    EXPECT_EQ(done, before) << "given " << given;  // it was withdrawn
+    EXPECT_LE(done, thrown ? 0 : 4);
+  }
+  EXPECT_GT(failed, 0);  // without memory for the task itself
 }
 
 // Of the threads a fork takes the caller's alone along.

@@ -85,7 +85,7 @@ TEST(CloseLoop, PlacesAHollowWhereItIs) {
   for (const auto& [teeth, middle] : {std::pair{24, 0.2}, {37, -0.2}}) {
     const loop::FlankGeometry geometry = geometry_of(spur(teeth));
     const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
-    const Process worn = grown([middle](auto&, const FlankSpot& s, auto&) {
+    const Process worn = grown([middle = middle](auto&, const FlankSpot& s, auto&) {
       const double t = (s.u - middle) / 0.25;
       return -60.0 * std::exp(-t * t);
     });

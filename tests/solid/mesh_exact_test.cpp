@@ -139,29 +139,31 @@ TEST(MeshExact, TeethWithEdgeChamfersBoundSolidsAlsoIn32Bits) {
 
 TEST(MeshExact, ChamferedAtTheBedPartsBoundSolidsAlsoIn32Bits) {
   int made = 0;
-  const auto expect_chamfered_solid = [&](PartShape& part, double module_mm, double tolerance_mm) {
+  // whether a chamfer fits the part
+  const auto expect_chamfered_solid = [](PartShape& part, double module_mm, double tolerance_mm) {
     std::deque<InsetProfile> profiles;
     const auto note = add_bed_chamfer(part, 0.2 * module_mm, 0.5 * module_mm, profiles);
-    if (bed_depth_mm(part) == 0.0) return;
+    if (bed_depth_mm(part) == 0.0) return false;
     SCOPED_TRACE(note.value_or("as deep as asked"));
     const TriangleMesh mesh = part_mesh(part, {.tolerance_mm = tolerance_mm}).mesh;
     expect_boundary_of_a_solid(mesh);
     expect_boundary_of_a_solid(rounded_to_32_bits(mesh));
-    ++made;
+    return true;
   };
   for (std::uint64_t seed = 8200; made < 12; ++seed) {
     auto random = test::random_part(seed);
     if (!random || random->train->gears[0].profile.gear().teeth > 60) continue;
     SCOPED_TRACE(random->text);
-    expect_chamfered_solid(random->part, random->train->gears[0].profile.gear().normal_module_mm,
-                           std::max(random->tolerance_mm, 1e-3));
+    const double module_mm = random->train->gears[0].profile.gear().normal_module_mm;
+    if (expect_chamfered_solid(random->part, module_mm, std::max(random->tolerance_mm, 1e-3)))
+      ++made;
   }
   for (std::uint64_t seed = 9200; made < 18; ++seed) {
     auto random = test::random_toothing(seed, {.deviation = seed % 2 == 0});
     if (!random || random->train->gears[0].profile.gear().teeth > 30) continue;
     SCOPED_TRACE(random->text);
-    expect_chamfered_solid(random->part, random->train->gears[0].profile.gear().normal_module_mm,
-                           4.0 * random->tolerance_mm);
+    const double module_mm = random->train->gears[0].profile.gear().normal_module_mm;
+    if (expect_chamfered_solid(random->part, module_mm, 4.0 * random->tolerance_mm)) ++made;
   }
 }
 
