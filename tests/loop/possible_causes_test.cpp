@@ -225,7 +225,9 @@ TEST(PossibleCauses, WhatToDoFollowsTheProcess) {
     const std::string& sentence = find(result, "taper")->sentence;
     EXPECT_THAT(sentence, HasSubstr(action)) << process;
     for (const auto& [other, foreign] : first_actions)
-      if (other != process) EXPECT_THAT(sentence, Not(HasSubstr(foreign))) << process;
+      if (other != process) {
+        EXPECT_THAT(sentence, Not(HasSubstr(foreign))) << process;
+      }
   }
 }
 
@@ -233,11 +235,12 @@ TEST(PossibleCauses, WhatToDoFollowsTheProcess) {
 TEST(PossibleCauses, EveryProcessHasAnAction) {
   for (const loop::EffectFamily& family : loop::effect_library())
     for (unsigned bit = 1; !family.corrections.empty() && bit < loop::kAnyMaking; bit <<= 1U)
-      if (loop::can_have(bit, family))
+      if (loop::can_have(bit, family)) {
         EXPECT_EQ(std::count_if(family.corrections.begin(), family.corrections.end(),
                                 [&](const auto& one) { return (one.makings & bit) != 0; }),
                   1)
             << family.id << " " << loop::making_text(bit);
+      }
 }
 
 TEST(PossibleCauses, NamesOfProcessesSayHowAPartIsMade) {

@@ -269,6 +269,7 @@ bool tell_as_several_places(PartModel& model, const std::vector<SideBySide>& run
                             const Indices& on_some) {
   constexpr std::size_t kMost = 8;
   constexpr double kClearly = 9.0;  // chi-square
+  constexpr int kMoreOfEach = 2;    // values, as of one place
   std::size_t of_runs = 0;
   for (const SideBySide& run : runs) of_runs += run.effects.size();
   if (runs.size() < 2 || runs.size() > kMost || of_runs == on_some.size() ||
@@ -287,7 +288,10 @@ bool tell_as_several_places(PartModel& model, const std::vector<SideBySide>& run
         [&](const auto& a, const auto& b) { return cost_of(model, a) < cost_of(model, b); }));
   }
   refine_nearby(model.geometry, model.table, model.patches, with);
-  if (cost_of(model, with) > cost_of(model, model.effects) - kClearly) return false;
+  if (values_of(with, true) >
+          values_of(model.effects, true) + kMoreOfEach * static_cast<int>(runs.size()) ||
+      cost_of(model, with) > cost_of(model, model.effects) - kClearly)
+    return false;
   put_in_place_of(model, on_some, with);
   return true;
 }
