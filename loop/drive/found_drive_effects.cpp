@@ -111,7 +111,9 @@ class Describer {
       if (s_.candidates[group].family->named) add(s_.candidates[group].family->id);
     if (const auto others = s_.exchangeable.find(family.id); others != s_.exchangeable.end())
       for (const std::string& id : others->second) add(id);
-    if (s_.context.table.impossible == Impossible::kEfficiencyAboveOne) {
+    // (what a sensor reads otherwise on either way is no friction)
+    const bool reads_either_way = family.stands_alone && !family.is_loss;
+    if (s_.context.table.impossible == Impossible::kEfficiencyAboveOne && !reads_either_way) {
       // Not tried, and not because the data exclude them.
       for (const DriveFamily& hidden : drive_library())
         if (hidden.hides_in_gains && !is_fitted(hidden)) add(hidden.id);

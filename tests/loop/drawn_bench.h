@@ -17,7 +17,8 @@
 // function of the test. Shares no formula with trueflank/loop.
 namespace trueflank::test {
 
-enum class RowOrder { kShuffled, kUpAndDown, kRuns };
+/// kStandsAtTurns: up and down, and the load stands for one to three rows where it turns.
+enum class RowOrder { kShuffled, kUpAndDown, kRuns, kStandsAtTurns };
 
 /// One row as it was driven.
 struct DrawnRow {
@@ -134,6 +135,15 @@ class DrawnBench {
             for (auto share = load_shares.rbegin() + 1; share != load_shares.rend(); ++share)
               add(all, forward, speed, *share);
           }
+    if (order == RowOrder::kStandsAtTurns)
+      for (const bool forward : {true, false})
+        for (const double speed : rpm) {
+          for (const double share : load_shares) add(all, forward, speed, share);
+          for (int more = whole(1, 2); more > 0; --more)
+            add(all, forward, speed, load_shares.back());
+          for (auto share = load_shares.rbegin() + 1; share != load_shares.rend(); ++share)
+            add(all, forward, speed, *share);
+        }
     if (order == RowOrder::kRuns) {
       const int length = whole(14, 30);
       for (int run = 0; run < 16; ++run)

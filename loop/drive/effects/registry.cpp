@@ -41,6 +41,8 @@ const std::vector<DriveFamily>& drive_library() {
         unnamed_drift(),
         unnamed_spell(),
         unnamed_bump(),
+        unnamed_hysteresis(),
+        unnamed_play(),
         unnamed_way(),
         unnamed_after_rest(),
         unnamed_wander(),
