@@ -125,6 +125,146 @@ TEST(UnknownOnBenches, AHysteresisThatGoesOverByAndByLeavesNoStructure) {
   EXPECT_GE(answers.right, answers.seldom_fewer(0.9)) << answers.text();
 }
 
+DrawnBench::Loss nothing() {
+  return [](const DrawnRow&) { return 0.0; };
+}
+
+TEST(UnknownOnBenches, FlanksThatRubMoreFromASpeedOnAreOneFormAndNoMesh) {
+  Answers answers;
+  for (int run = 1; run <= kBenches; ++run) {
+    const auto seed = static_cast<std::uint64_t>(54000 + run);
+    DrawnBench bench(seed, RowOrder::kShuffled);
+    const double from = bench.between(bench.rpm[1], bench.rpm[bench.rpm.size() - 4]),
+                 more = 0.1 * bench.between(0.3, 0.8);
+    const auto data = bench.data(
+        nothing(),
+        [&](const DrawnRow& row) {
+          return 0.1 + more * std::max(0.0, row.rpm - from) / (bench.rpm.back() - from);
+        },
+        nothing());
+    const auto closed = loop::close_drive_loop(bench.model(), data);
+    const loop::FoundEffect* form =
+        closed ? with_figure(closed->result, "coefficient_change") : nullptr;
+    answers.add(seed, "from " + std::to_string(from) + " rpm " + std::to_string(more) + " more",
+                closed,
+                form != nullptr && closed->result.effects.size() == 1 &&
+                    is_about(*form, "coefficient_change", more, 0.2) &&
+                    is_about(*form, "begins_at_rpm", from, 0.25) &&
+                    form->sentence.find("rub more from") != std::string::npos);
+  }
+  std::printf("flanks that rub more from a speed on: %s", answers.text().c_str());
+  EXPECT_GE(answers.right, answers.seldom_fewer(0.9)) << answers.text();
+}
+
+TEST(UnknownOnBenches, FlanksThatRubLessTheWarmerTheyAreSayTheirCoefficientAtEitherEnd) {
+  Answers answers;
+  for (int run = 1; run <= kBenches; ++run) {
+    const auto seed = static_cast<std::uint64_t>(55000 + run);
+    DrawnBench bench(seed, RowOrder::kShuffled);
+    bench.warm_up();
+    const double rate = bench.between(0.008, 0.02) * (run % 2 == 0 ? 1.0 : -1.0);
+    const auto mu = [&](double c) { return 0.1 * std::exp(-rate * (c - 35.0)); };
+    const auto data = bench.data(
+        nothing(), [&](const DrawnRow& row) { return mu(row.warm_c); }, nothing());
+    const auto closed = loop::close_drive_loop(bench.model(), data);
+    double low = 1e300, high = -1e300;
+    for (const DrawnRow& row : bench.rows) {
+      low = std::min(low, row.warm_c);
+      high = std::max(high, row.warm_c);
+    }
+    const loop::FoundEffect* form =
+        closed ? with_figure(closed->result, "coefficient_change") : nullptr;
+    const double change = std::abs(mu(low) - mu(high));
+    answers.add(seed, "coefficient changes by " + std::to_string(change), closed,
+                form != nullptr && is_about(*form, "coefficient_change", change, 0.25) &&
+                    form->sentence.find(rate > 0.0 ? "rub less" : "rub more") != std::string::npos);
+  }
+  std::printf("friction that follows the warmth: %s", answers.text().c_str());
+  EXPECT_GE(answers.right, answers.seldom_fewer(0.9)) << answers.text();
+}
+
+TEST(UnknownOnBenches, AZeroThatFollowsTheWarmthIsOneReadingWithItsSign) {
+  Answers answers;
+  for (int run = 1; run <= kBenches; ++run) {
+    const auto seed = static_cast<std::uint64_t>(56000 + run);
+    DrawnBench bench(seed, RowOrder::kShuffled);
+    bench.warm_up();
+    const double per_c =
+                     bench.noise_output_nm * bench.between(0.15, 0.5) * (run % 2 == 0 ? 1.0 : -1.0),
+                 drag = bench.scatter_nm() * bench.between(0.0, 5.0);
+    const auto data = bench.data([&](const DrawnRow&) { return drag; }, 0.1,
+                                 [&](const DrawnRow& row) { return per_c * (row.warm_c - 25.0); });
+    const auto closed = loop::close_drive_loop(bench.model(), data);
+    const loop::FoundEffect* form =
+        closed ? with_figure(closed->result, "reads_more_nm_per_c") : nullptr;
+    answers.add(
+        seed, std::to_string(per_c) + " N m per C", closed,
+        form != nullptr && is_about(*form, "reads_more_nm_per_c", per_c, 0.2) &&
+            form->sentence.find(per_c > 0.0 ? "reads more" : "reads less") != std::string::npos);
+  }
+  std::printf("a zero that follows the warmth: %s", answers.text().c_str());
+  EXPECT_GE(answers.right, answers.seldom_fewer(0.9)) << answers.text();
+}
+
+TEST(UnknownOnBenches, AResonanceLeavesTheViscousDragBesideItItsName) {
+  Answers answers;
+  for (int run = 1; run <= kBenches; ++run) {
+    const auto seed = static_cast<std::uint64_t>(57000 + run);
+    DrawnBench bench(seed, RowOrder::kShuffled);
+    const double at = bench.between(bench.rpm[2], bench.rpm[bench.rpm.size() - 3]),
+                 half = bench.between(250.0, 500.0),
+                 most = bench.scatter_nm() * bench.between(5.0, 9.0),
+                 per_rpm = bench.scatter_nm() * bench.between(3.0, 10.0) / 3000.0;
+    const auto data = bench.data([&](const DrawnRow& row) {
+      const double x = (row.rpm - at) / half;
+      return most / (1.0 + x * x) + per_rpm * row.rpm;
+    });
+    const auto closed = loop::close_drive_loop(bench.model(), data);
+    const loop::FoundEffect* form =
+        closed ? with_figure(closed->result, "half_width_rpm") : nullptr;
+    const loop::FoundEffect* drag = nullptr;
+    if (closed)
+      for (const loop::FoundEffect& effect : closed->result.effects)
+        if (effect.id == "viscous_drag" || effect.id == "bearing_friction") drag = &effect;
+    answers.add(seed,
+                "resonance at " + std::to_string(at) + ", half width " + std::to_string(half) +
+                    ", viscous " + std::to_string(per_rpm),
+                closed,
+                form != nullptr && drag != nullptr && closed->result.effects.size() <= 3 &&
+                    is_about(*form, "at_rpm", at, 0.15));
+  }
+  std::printf("a resonance beside a viscous drag: %s", answers.text().c_str());
+  EXPECT_GE(answers.right, answers.seldom_fewer(0.85)) << answers.text();
+}
+
+TEST(UnknownOnBenches, AScaleIsNoFrictionThatWouldBeNextToNothingInOneDirection) {
+  Answers answers;
+  for (int run = 1; run <= kBenches; ++run) {
+    const auto seed = static_cast<std::uint64_t>(58000 + run);
+    DrawnBench bench(seed, RowOrder::kShuffled);
+    const double off = bench.between(0.02, 0.04) * (run % 2 == 0 ? 1.0 : -1.0),
+                 drag = bench.scatter_nm() * bench.between(4.0, 9.0);
+    const auto data = bench.data([&](const DrawnRow&) { return drag; }, 0.1,
+                                 [&](const DrawnRow& row) { return off * row.output_nm; });
+    const auto closed = loop::close_drive_loop(bench.model(), data);
+    bool scale = false, other = false;
+    if (closed)
+      for (const loop::FoundEffect& effect : closed->result.effects) {
+        scale =
+            scale || (effect.id == "torque_scale" && is_about(effect, "factor", 1.0 + off, 0.01));
+        if (effect.id == "direction_dependent_friction") {
+          // Of flanks of 0.1 that lose little a small scale may be a likely difference.
+          const loop::Parameter* p = parameter(effect, "difference");
+          other = other || p == nullptr || std::abs(p->value) > 0.1 ||
+                  effect.sentence.find("is ruled out") == std::string::npos;
+        }
+      }
+    answers.add(seed, "factor " + std::to_string(1.0 + off), closed, (scale || !other) && !other);
+  }
+  std::printf("a scale: %s", answers.text().c_str());
+  EXPECT_GE(answers.right, answers.seldom_fewer(0.97)) << answers.text();
+}
+
 TEST(UnknownOnBenches, NoiseAloneOverLoadsThatTurnHasNoName) {
   Answers answers;
   for (int run = 1; run <= kBenches; ++run) {

@@ -47,6 +47,8 @@ const std::vector<DriveFamily>& drive_library() {
         unnamed_after_rest(),
         unnamed_wander(),
         unnamed_product(),
+        unnamed_flanks_slope(),
+        unnamed_reading_slope(),
         unnamed_settling(),
         unnamed_bend(),
     };

@@ -55,6 +55,8 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_after_rest();
 [[nodiscard]] DriveFamily unnamed_wander();
 [[nodiscard]] DriveFamily unnamed_product();
+[[nodiscard]] DriveFamily unnamed_flanks_slope();
+[[nodiscard]] DriveFamily unnamed_reading_slope();
 [[nodiscard]] DriveFamily unnamed_settling();
 [[nodiscard]] DriveFamily unnamed_bend();
 /// @}
