@@ -233,7 +233,7 @@ void lock_hold_out(BenchTable& table, bool log) {
 /// change of direction: neighbours share it, and it is no error.
 SmoothFit without_memory(const BenchTable& table, const SmoothFit& fit) {
   constexpr std::size_t kFewestTurns = 4, kFewestRows = 48;
-  constexpr Eigen::Index kColumns = 6;
+  constexpr Eigen::Index kColumns = 8;
   const auto& points = table.points;
   std::size_t turns = 0;
   for (std::size_t i = 1; i < points.size(); ++i)
@@ -249,7 +249,8 @@ SmoothFit without_memory(const BenchTable& table, const SmoothFit& fit) {
     const double side = p.forward ? 1.0 : -1.0, share = p.load_nm / most;
     const double middle = 4.0 * share * (1.0 - share);
     x.row(static_cast<Eigen::Index>(i)) << p.way, side * p.way, middle * p.way,
-        side * middle * p.way, std::exp(-p.since_turn / 2.0), std::exp(-p.since_turn / 6.0);
+        side * middle * p.way, p.way_kept, side * p.way_kept, std::exp(-p.since_turn / 2.0),
+        std::exp(-p.since_turn / 6.0);
     left[static_cast<Eigen::Index>(i)] = fit.residual_nm[i] / p.sigma_nm;
   }
   left -= x * least_squares(x, left);

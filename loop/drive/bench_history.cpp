@@ -8,27 +8,42 @@
 namespace trueflank::loop {
 namespace {
 
-/// Which way a load or a speed goes in the rows of one file.
+/// A load or a speed, and where its way is noted.
+struct Way {
+  double BenchPoint::*value;
+  int BenchPoint::*way;
+  int BenchPoint::*kept;
+  double BenchPoint::*moved;
+};
+
+/// Which way a load or a speed goes in the rows of one file. Less than `apart` of the largest is no
+/// movement.
 void note_ways(std::vector<BenchPoint>& points, std::size_t begin, std::size_t end,
-               double BenchPoint::*value, int BenchPoint::*noted, double apart) {
+               const Way& noted, double most, double apart_share) {
+  const double apart = apart_share * most;
   std::size_t turn = begin;  // the row that went furthest
   int way = 0;
+  double turned_at = begin < end ? points[begin].*noted.value : 0.0;
   for (std::size_t i = begin; i < end; ++i) {
-    const double moved = points[i].*value - points[turn].*value;
+    const double moved = points[i].*noted.value - points[turn].*noted.value;
     if (way == 0 ? std::abs(moved) > apart : -way * moved > apart) {
       const int next = moved > 0.0 ? 1 : -1;
+      turned_at = points[turn].*noted.value;
       // What stands at the turn belongs to both ways.
       std::size_t first = i;
-      while (first > begin && std::abs(points[first - 1].*value - points[turn].*value) <= apart)
+      while (first > begin && std::abs(points[first - 1].*noted.value - turned_at) <= apart)
         --first;
       const std::size_t middle = way == 0 ? first : first + (i - first + 1) / 2;
-      for (std::size_t k = middle; k < i; ++k) points[k].*noted = next;
+      for (std::size_t k = middle; k < i; ++k) points[k].*noted.way = next;
+      if (way == 0)
+        for (std::size_t k = first; k < i; ++k) points[k].*noted.kept = next;
       way = next;
       turn = i;
     } else if (way * moved > 0.0) {
       turn = i;
     }
-    points[i].*noted = way;
+    points[i].*noted.way = points[i].*noted.kept = way;
+    points[i].*noted.moved = std::abs(points[i].*noted.value - turned_at) / std::max(most, 1e-300);
   }
 }
 
@@ -45,9 +60,13 @@ void note_history(std::vector<BenchPoint>& points) {
   for (std::size_t i = 0; i <= points.size(); ++i) {
     const bool ends = i == points.size() || points[i].file != points[begin].file;
     if (ends) {
-      note_ways(points, begin, i, &BenchPoint::load_nm, &BenchPoint::way, kApart * most_load);
-      note_ways(points, begin, i, &BenchPoint::speed_rpm, &BenchPoint::speed_way,
-                kApart * most_speed);
+      note_ways(points, begin, i,
+                {&BenchPoint::load_nm, &BenchPoint::way, &BenchPoint::way_kept, &BenchPoint::moved},
+                most_load, kApart);
+      note_ways(points, begin, i,
+                {&BenchPoint::speed_rpm, &BenchPoint::speed_way, &BenchPoint::speed_way_kept,
+                 &BenchPoint::speed_moved},
+                most_speed, kApart);
       begin = i;
     }
     if (i == points.size()) break;

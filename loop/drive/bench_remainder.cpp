@@ -116,6 +116,8 @@ class Asking {
     ask("file", 1, together(file, direction));
     for (const BenchPoint& p : points) way.push_back(p.way);
     ask("way of loading (rising or falling)", 1, together(way, direction));
+    if (is_swept(way))
+      ask("load, otherwise while it rises and while it falls,", 2, together(way, load));
     ask("load, otherwise in each direction,", 2, together(load, direction));
     ask("speed, otherwise in each direction,", 2, together(speed, direction));
     if (table_.has_angle) {
@@ -126,6 +128,15 @@ class Asking {
     ask("load of the set point before", 1, before_of(load));
     ask("speed of the set point before", 1, before_of(speed));
     ask("load and the speed together", 3, set_point_);
+  }
+
+  /// True where the load goes up and down in steps, and not anyhow.
+  [[nodiscard]] bool is_swept(const std::vector<int>& way) const {
+    constexpr std::size_t kFewestTurns = 4, kVisitsEach = 3;
+    const std::vector<int> of_each = of_visits(way);
+    std::size_t turns = 0;
+    for (std::size_t v = 1; v < of_each.size(); ++v) turns += of_each[v] != of_each[v - 1] ? 1 : 0;
+    return turns >= kFewestTurns && kVisitsEach * turns <= of_each.size();
   }
 
   /// The level that each visit's predecessor had.
@@ -462,6 +473,8 @@ class Asking {
     }
     if (q.what.front() == 'w')
       return way + (p.way < 0 ? " falling" : p.way > 0 ? " rising" : " at the start");
+    if (q.what.find("rises") != std::string::npos)
+      return (p.way < 0 ? "falling at " : "rising at ") + load;
     if (q.rank == 2) return way + " at " + (q.what.front() == 's' ? speed : load);
     return way + " at " + load + " and " + speed;
   }

@@ -31,6 +31,11 @@ struct BenchPoint {
   int file = 0, line = 0;
   int way = 0, speed_way = 0;  ///< of the load and the speed: 1 while it rises, -1 while it falls,
                                ///< 0 before it has moved
+  /// The same where what stands at a turn keeps the way that it came by, as a sensor's or a
+  /// lever's friction does; `way` gives half of what stands there to either.
+  int way_kept = 0, speed_way_kept = 0;
+  /// How far the load and the speed have moved since they turned, of the largest.
+  double moved = 0.0, speed_moved = 0.0;
   int row = 0;                 ///< of its file, from 0 on, with the rows that were left out
   int since_turn = 0;          ///< rows since the direction changed or the file began
   [[nodiscard]] DrivePoint at() const { return {forward, speed_rpm, load_nm, temperature_c}; }

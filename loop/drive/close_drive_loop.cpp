@@ -160,7 +160,7 @@ class DriveReport {
           "found in better than others",
           r.after.held_out_rms / r.noise);
     }
-    judge_impossible(r);
+    judge_impossible(outcome.effects, r);
   }
 
   /// A quarter above the noise, and as much more as the rms of so few rows may scatter.
@@ -291,7 +291,7 @@ class DriveReport {
                              correlation_of_visits(opposite, of_visit))};
   }
 
-  void judge_impossible(LoopResult& r) const {
+  void judge_impossible(const std::vector<DriveEffect>& effects, LoopResult& r) const {
     if (selection_.table().impossible == Impossible::kNothing) return;
     if (selection_.table().impossible == Impossible::kEfficiencyAboveOne) {
       r.verdict = Verdict::kPartlyExplained;
@@ -299,10 +299,14 @@ class DriveReport {
         const DriveFamily* family = find_drive_family(f.id);
         return family == nullptr || family->is_loss;
       });
-      r.structure_left = selection_.table().impossible_text +
-                         "; a torque scale or an offset is in these data, and " +
-                         (losses ? "the losses beside it are as sure as it is"
-                                 : "no friction was fitted to them");
+      const bool reads_oddly = std::any_of(effects.begin(), effects.end(), [](const auto& e) {
+        return !e.family->named && !e.family->is_loss;
+      });
+      r.structure_left =
+          selection_.table().impossible_text +
+          (reads_oddly ? "; a sensor reads wrong in these data, and "
+                       : "; a torque scale or an offset is in these data, and ") +
+          (losses ? "the losses beside it are as sure as it is" : "no friction was fitted to them");
       r.notes.push_back(selection_.table().impossible_text);
       return;
     }

@@ -157,6 +157,7 @@ struct DriveFamily : EffectFacts {
   /// the same.
   bool follows_the_run = false;
   bool differs_by_direction = false;    ///< a loss that does what a sensor does: data that gain power show the sensor
+  bool of_one_mesh = false;             ///< of the friction of one mesh alone
   bool bends_over_load = false;         ///< as a bent sensor does: told from that by the other direction alone
   bool hides_in_gains = false;          ///< a loss that data with gained power can neither show nor exclude
 
@@ -176,6 +177,12 @@ struct DriveFamily : EffectFacts {
   /// Of what has no course of its own but may be a piece of one: over which quantity; kOverNothing:
   /// the same everywhere; kOverSeveral: over more than one.
   std::function<double(const DriveShape&)> piece_over = {};
+  /// Over which quantity it has a course in proportion to the load; kOverNothing, or empty: none.
+  std::function<double(const DriveShape&)> beside_load = {};
+  /// Where it is nothing is a figure of its own, and stands for what is the same everywhere.
+  bool holds_a_constant = false;
+  /// Kinds of shapes of which each is tried by its own likeliest place; empty: there is one.
+  std::function<int(const DriveShape&)> kind = {};
   /// Shapes that differ in their kind alone, to be tried once a place is found; empty: there are
   /// none.
   std::function<std::vector<DriveShape>(const DriveShape&)> kin_shapes = {};

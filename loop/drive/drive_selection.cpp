@@ -77,6 +77,7 @@ DriveOutcome DriveSelection::choose() {
   tell_as_one_form(outcome);
   tell_as_one_place_of_a_turn(outcome);
   follow_the_run(outcome);
+  prefer_plainer_names(outcome);
   drop_what_is_nothing(outcome);
   veto(outcome);
   return outcome;
@@ -213,11 +214,21 @@ bool DriveSelection::ban_wrong_signs(const DriveOutcome& outcome) {
     any = ban([](const DriveEffect& c) {
             return c.family->differs_by_direction && c.family->into_state;
           }) || any;
+  if (!every_mesh_rubs(state_of(fit)))
+    any = ban([](const DriveEffect& c) { return c.family->of_one_mesh; }) || any;
   return any;
 }
 
 bool DriveSelection::rubs_both_ways(const DriveState& state) const {
-  return model_.friction + state.shift > 0.5 * std::abs(state.difference) || state.difference == 0.0;
+  // The same flanks rub one way at most three times as much as the other: more is a sensor's scale.
+  return model_.friction + state.shift > std::abs(state.difference) || state.difference == 0.0;
+}
+
+bool DriveSelection::every_mesh_rubs(const DriveState& state) const {
+  constexpr double kLeast = 0.2;  // of the design's
+  return std::all_of(state.mesh_value.begin(), state.mesh_value.end(), [&](const auto& mesh) {
+    return model_.friction + state.shift + mesh.second > kLeast * model_.friction;
+  });
 }
 
 DriveState DriveSelection::state_of(const DriveFit& fit) {

@@ -57,8 +57,10 @@ class DriveSelection {
   [[nodiscard]] double share_of_level() const { return table_.drifts ? 0.25 : 1.0; }
   /// Friction and scale of a fit become the place about which the model is linear.
   [[nodiscard]] static DriveState state_of(const DriveFit& fit);
-  /// False where a friction that differs between the directions would be below zero in one.
+  /// False where a friction that differs between the directions would be next to nothing in one.
   [[nodiscard]] bool rubs_both_ways(const DriveState& state) const;
+  /// False where the friction of one mesh would be next to nothing beside the design's.
+  [[nodiscard]] bool every_mesh_rubs(const DriveState& state) const;
   /// The place about which the model is linear.
   void move_state_to(const DriveState& state) { state_ = state; }
 
@@ -152,7 +154,10 @@ class DriveSelection {
   /// friction where that leaves no more than chance: where a loss begins, stands out or jumps.
   struct OneForm;
   void tell_as_one_form(DriveOutcome& outcome);
-  void add_sets_with_one_form(const OneForm& base, double over, std::vector<OneForm>& sets);
+  void add_sets_with_one_form(const DriveOutcome& outcome, const OneForm& base, double over,
+                              bool with_load, std::vector<OneForm>& sets);
+  /// What a set leaves, and its figures; false where an amount cannot be what it is called.
+  [[nodiscard]] bool fits(OneForm& set) const;
   /// Of every kind the form over a quantity that takes most off beside these effects.
   [[nodiscard]] std::vector<DriveEffect> likeliest_forms(const std::vector<DriveEffect>& base,
                                                          double over) const;
@@ -164,6 +169,11 @@ class DriveSelection {
   /// less, it takes its place.
   void follow_the_run(DriveOutcome& outcome);
   void settle_after_exchange(DriveOutcome& outcome);
+  /// A name of no more figures that people think of earlier takes the place of one that explains no
+  /// more: beside forms that were told late the choice among names is asked again.
+  void prefer_plainer_names(DriveOutcome& outcome);
+  /// False where an amount cannot be what it is called.
+  [[nodiscard]] bool is_possible(const DriveOutcome& outcome) const;
   /// Of several effects those that are nothing once all shapes are free: they only mended another's
   /// shape.
   void drop_what_is_nothing(DriveOutcome& outcome);

@@ -24,19 +24,43 @@ bool is_piece_over(const DriveEffect& effect, double over) {
   return family.piece_over && family.piece_over(effect.shape) == over;
 }
 
+/// True of a description in proportion to the load that has a course over this quantity.
+bool is_beside_load(const DriveEffect& effect, double over) {
+  const DriveFamily& family = *effect.family;
+  return !family.named && over != 0.0 && family.beside_load &&
+         family.beside_load(effect.shape) == over;
+}
+
 bool is_constant_piece(const DriveEffect& effect) {
   return !effect.family->named && effect.family->piece_over &&
          effect.family->piece_over(effect.shape) == kOverNothing;
 }
 
-/// What is the same everywhere, and the flanks' friction among losses over the load: nearly every
-/// bench has it.
-bool is_plain(const DriveEffect& effect, double over) {
+/// What is the same everywhere, and the flanks' friction among losses over the load (`with_load`):
+/// nearly every bench has it.
+bool is_plain(const DriveEffect& effect, bool with_load) {
   const DriveFamily& family = *effect.family;
   return family.named && effect.columns() == 1 && family.shape_values.empty() &&
          (family.follows == "nothing" ||
-          (over == 0.0 && family.preference == 0 && family.follows == "load"));
+          (with_load && family.preference == 0 && family.follows == "load"));
 }
+
+/// A sensor's zero: beside what follows the temperature it may only be what this is at its middle.
+bool is_zero(const DriveEffect& effect, double over) {
+  const DriveFamily& family = *effect.family;
+  return over == 2.0 && family.named && !family.is_loss && effect.columns() == 1 &&
+         effect.shape.empty() && !family.base;
+}
+
+/// A friction of the flanks by another law than the plainest: beside forms in proportion to the
+/// load it may only have mended these.
+bool is_named_beside_load(const DriveEffect& effect) {
+  const DriveFamily& family = *effect.family;
+  return family.named && family.preference > 0 && family.follows == "load";
+}
+
+/// A name of the same course that has no shape to move: a loss that nearly every bench has.
+bool is_companion(const DriveEffect& effect, double over);
 
 /// A name of the same course: its figures may only have mended the pieces.
 bool is_named_over(const DriveEffect& effect, double over) {
@@ -45,6 +69,11 @@ bool is_named_over(const DriveEffect& effect, double over) {
          family.follows == (over == 0.0   ? "load"
                             : over == 1.0 ? "speed"
                                           : "warmth");
+}
+
+bool is_companion(const DriveEffect& effect, double over) {
+  return over == 1.0 && is_named_over(effect, over) && effect.columns() == 1 &&
+         effect.shape.empty();
 }
 
 }  // namespace
@@ -56,18 +85,19 @@ std::vector<DriveEffect> DriveSelection::likeliest_forms(const std::vector<Drive
   std::vector<DriveEffect> forms;
   for (const DriveFamily& family : drive_library()) {
     if (!family.all_shapes || !family.over || !may_be_there(family)) continue;
-    double most = 0.0;
-    DriveEffect best;
+    std::map<int, std::pair<double, DriveShape>> likeliest;  // of every kind
     for (const DriveShape& shape : family.all_shapes(here, nullptr)) {
       if (family.over(shape) != over) continue;
       const double gain = beside.with({&family, shape}).gain;
+      if (!(gain > 0.0)) continue;
+      auto& [most, best] = likeliest[family.kind ? family.kind(shape) : 0];
       if (gain <= most) continue;
       most = gain;
-      best = {&family, shape};
+      best = shape;
     }
-    if (most > 0.0)
-      for (DriveShape& shape :
-           family.kin_shapes ? family.kin_shapes(best.shape) : std::vector<DriveShape>{best.shape})
+    for (const auto& [kind, best] : likeliest)
+      for (DriveShape& shape : family.kin_shapes ? family.kin_shapes(best.second)
+                                                 : std::vector<DriveShape>{best.second})
         forms.push_back({&family, shape});
   }
   // A name that does the same goes before; warmth and the course of the run are asked elsewhere.
@@ -89,7 +119,12 @@ std::vector<DriveEffect> DriveSelection::likeliest_forms(const std::vector<Drive
 
 void DriveSelection::tell_as_one_form(DriveOutcome& outcome) {
   for (const double over : {0.0, 1.0, 2.0}) {
-    const auto piece = [&](const DriveEffect& e) { return is_piece_over(e, over); };
+    const bool with_load =
+        over == 0.0 || std::any_of(outcome.effects.begin(), outcome.effects.end(),
+                                   [&](const DriveEffect& e) { return is_beside_load(e, over); });
+    const auto piece = [&](const DriveEffect& e) {
+      return is_piece_over(e, over) || is_beside_load(e, over);
+    };
     const bool pieces = std::any_of(outcome.effects.begin(), outcome.effects.end(), piece);
     // Names that make up a form together: of several that do what one form does each mends what the
     // others do where nothing changes.
@@ -106,15 +141,19 @@ void DriveSelection::tell_as_one_form(DriveOutcome& outcome) {
       bool any_name = false;
       for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
         const DriveEffect& effect = outcome.effects[e];
-        const bool name = with_names && is_named_over(effect, over);
+        const bool name =
+            with_names && (is_named_over(effect, over) ||
+                           (with_load && over != 0.0 && is_named_beside_load(effect)));
         any_name = any_name || name;
         // What is plain may have mended the pieces too: it is asked anew.
-        if (piece(effect) || is_constant_piece(effect) || name || is_plain(effect, over)) continue;
+        if (piece(effect) || is_constant_piece(effect) || name || is_plain(effect, with_load) ||
+            is_zero(effect, over))
+          continue;
         base.effects.push_back(effect);
         base.from.push_back(static_cast<int>(e));
       }
       if (with_names && !any_name) continue;
-      add_sets_with_one_form(base, over, sets);
+      add_sets_with_one_form(outcome, base, over, with_load, sets);
     }
     double noise = now.square / std::max(1.0, outcome.rows - now.size);
     for (const OneForm& set : sets)
@@ -123,8 +162,10 @@ void DriveSelection::tell_as_one_form(DriveOutcome& outcome) {
     for (const OneForm& set : sets) {
       const int saved = now.size - set.size;
       const double more = set.square - now.square;
+      constexpr double kAsWell = 4.0;  // chi-square, of one effect in place of several
+      const bool fewer = set.effects.size() < outcome.effects.size();
       const double room = saved > 0    ? by_chance(saved) * outcome.shared
-                          : saved == 0 ? 0.0
+                          : saved == 0 ? (fewer ? kAsWell * outcome.shared : 0.0)
                                        : 9.0 * saved;
       if (more > noise * room) continue;
       if (best == nullptr || set.figure(noise) < best->figure(noise)) best = &set;
@@ -143,54 +184,71 @@ void DriveSelection::tell_as_one_form(DriveOutcome& outcome) {
   }
 }
 
-void DriveSelection::add_sets_with_one_form(const OneForm& base, double over,
+void DriveSelection::add_sets_with_one_form(const DriveOutcome& outcome, const OneForm& base,
+                                            double over, bool with_load,
                                             std::vector<OneForm>& sets) {
+  const auto is_taken = [&](const DriveFamily* family) {
+    return std::any_of(base.effects.begin(), base.effects.end(),
+                       [&](const DriveEffect& e) { return e.family == family; });
+  };
   // A course holds what is the same everywhere too: that has names.
   std::vector<DriveEffect> plain;
-  for (const DriveEffect& candidate : candidates_) {
-    const DriveFamily* family = candidate.family;
-    const bool taken = std::any_of(base.effects.begin(), base.effects.end(),
-                                   [&](const DriveEffect& e) { return e.family == family; });
-    if (is_plain(candidate, over) && !taken && may_be_there(*family)) plain.push_back(candidate);
+  // A form over the speed may stand beside a loss that grows with it: a course holds both.
+  std::vector<std::vector<DriveEffect>> companions{{}};
+  for (std::size_t g = 0; g < candidates_.size(); ++g) {
+    const DriveEffect& candidate = candidates_[g];
+    if (is_taken(candidate.family) || !may_be_there(*candidate.family)) continue;
+    if (is_plain(candidate, with_load) ||
+        (is_zero(candidate, over) && outcome.has(candidate.family)))
+      plain.push_back(candidate);
+    if (!banned_[g] && is_companion(candidate, over)) companions.push_back({candidate});
   }
-  std::vector<DriveEffect> full = base.effects;
-  full.insert(full.end(), plain.begin(), plain.end());
-  std::vector<DriveEffect> forms = likeliest_forms(full, over);
-  // Beside all that is plain a place is found, and moves little where some of it is left out.
-  for (DriveEffect& form : forms) {
-    std::vector<DriveEffect> effects = full;
-    effects.push_back(form);
-    refine_drive_shapes(context(), value_, FitRows::kTraining, effects);
-    form = effects.back();
-  }
-  forms.emplace_back();  // none at all
-  for (std::size_t which = 0; which < (std::size_t{1} << plain.size()); ++which)
-    for (const DriveEffect& form : forms) {
-      OneForm set = base;
-      for (std::size_t k = 0; k < plain.size(); ++k)
-        if ((which >> k) & 1U) {
-          set.effects.push_back(plain[k]);
-          set.from.push_back(-1);
-        }
-      if (form.family != nullptr) {
-        set.effects.push_back(form);
-        set.from.push_back(-1);
-      }
-      if (set.effects.empty()) continue;
-      const DriveContext here = context();
-      const DriveFit fit(here, value_, set.effects, FitRows::kTraining);
-      bool possible = true;
-      for (std::size_t e = 0; e < set.effects.size(); ++e) {
-        const DriveFamily& family = *set.effects[e].family;
-        const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
-        possible = possible && !(family.only_positive && !(b > 0.0)) &&
-                   !(family.plausible && !family.plausible(model_, b));
-      }
-      if (!possible) continue;
-      set.square = fit.residual_square();
-      set.size = size_of(set.effects);
-      sets.push_back(std::move(set));
+  for (const std::vector<DriveEffect>& beside : companions) {
+    std::vector<DriveEffect> full = base.effects;
+    full.insert(full.end(), plain.begin(), plain.end());
+    full.insert(full.end(), beside.begin(), beside.end());
+    std::vector<DriveEffect> forms = likeliest_forms(full, over);
+    if (!beside.empty())
+      std::erase_if(forms, [&](const DriveEffect& form) { return form.family->named; });
+    // Beside all that is plain a place is found, and moves little where some of it is left out.
+    for (DriveEffect& form : forms) {
+      std::vector<DriveEffect> effects = full;
+      effects.push_back(form);
+      refine_drive_shapes(context(), value_, FitRows::kTraining, effects);
+      form = effects.back();
     }
+    if (beside.empty()) forms.emplace_back();  // none at all
+    for (std::size_t which = 0; which < (std::size_t{1} << plain.size()); ++which)
+      for (const DriveEffect& form : forms) {
+        OneForm set = base;
+        const auto add = [&](const DriveEffect& effect) {
+          set.effects.push_back(effect);
+          set.from.push_back(-1);
+        };
+        for (std::size_t k = 0; k < plain.size(); ++k)
+          if ((which >> k) & 1U) add(plain[k]);
+        for (const DriveEffect& effect : beside) add(effect);
+        if (form.family != nullptr) add(form);
+        if (form.family != nullptr && form.family->holds_a_constant)
+          refine_drive_shapes(context(), value_, FitRows::kTraining, set.effects);
+        if (!set.effects.empty() && fits(set)) sets.push_back(std::move(set));
+      }
+  }
+}
+
+bool DriveSelection::fits(OneForm& set) const {
+  const DriveContext here = context();
+  const DriveFit fit(here, value_, set.effects, FitRows::kTraining);
+  for (std::size_t e = 0; e < set.effects.size(); ++e) {
+    const DriveFamily& family = *set.effects[e].family;
+    const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
+    if ((family.only_positive && !(b > 0.0)) || (family.plausible && !family.plausible(model_, b)))
+      return false;
+  }
+  set.square = fit.residual_square();
+  set.size = size_of(set.effects);
+  const DriveState state = state_of(fit);
+  return rubs_both_ways(state) && every_mesh_rubs(state);
 }
 
 void DriveSelection::exchange_effects(DriveOutcome& outcome, const OneForm& set,

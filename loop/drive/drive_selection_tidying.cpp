@@ -225,6 +225,58 @@ void DriveSelection::follow_the_run(DriveOutcome& outcome) {
   }
 }
 
+void DriveSelection::prefer_plainer_names(DriveOutcome& outcome) {
+  constexpr double kAsWell = 4.0;  // chi-square
+  for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
+    const DriveFamily* own = outcome.effects[e].family;
+    if (!own->named || outcome.effects[e].columns() != 1) continue;
+    DriveOutcome now = outcome;
+    settle_after_exchange(now);
+    const double noise = now.square / std::max(1.0, now.rows - now.size());
+    const DriveState state = state_;
+    std::size_t best = candidates_.size();
+    DriveOutcome plainer;
+    for (std::size_t g = 0; g < candidates_.size(); ++g) {
+      const DriveEffect& other = candidates_[g];
+      if (banned_[g] || !other.family->named || other.columns() != 1 ||
+          other.family->preference >= own->preference || outcome.has(other.family) ||
+          (best < candidates_.size() &&
+           other.family->preference >= candidates_[best].family->preference))
+        continue;
+      DriveOutcome with = outcome;
+      with.effects[e] = other;
+      if (with.size() > outcome.size()) continue;
+      refine_drive_shapes(context(), value_, FitRows::kTraining, with.effects);
+      settle_after_exchange(with);
+      if (with.square - now.square < kAsWell * noise * now.shared && is_possible(with)) {
+        best = g;
+        plainer = std::move(with);
+      }
+      state_ = state;
+    }
+    if (best == candidates_.size()) continue;
+    ChosenGroup& record = plainer.discovery.chosen[e];
+    exchangeable_[candidates_[best].family->id].insert(own->id);
+    record.confounded.clear();
+    record.group = static_cast<int>(best);
+    outcome = std::move(plainer);
+    settle_after_exchange(outcome);
+  }
+}
+
+bool DriveSelection::is_possible(const DriveOutcome& outcome) const {
+  const DriveContext here = context();
+  const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
+  for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
+    const DriveFamily& family = *outcome.effects[e].family;
+    const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
+    if ((family.only_positive && !(b > 0.0)) || (family.plausible && !family.plausible(model_, b)))
+      return false;
+  }
+  const DriveState state = state_of(fit);
+  return rubs_both_ways(state) && every_mesh_rubs(state);
+}
+
 void DriveSelection::drop_what_is_nothing(DriveOutcome& outcome) {
   constexpr double kStandsOut = 3.0;  // standard errors
   while (outcome.effects.size() > 1) {

@@ -185,7 +185,8 @@ class Exchange {
           (family.plausible && !family.plausible(selection_.model(), b)))
         return false;
     }
-    return selection_.rubs_both_ways(DriveSelection::state_of(fit));
+    const DriveState state = DriveSelection::state_of(fit);
+    return selection_.rubs_both_ways(state) && selection_.every_mesh_rubs(state);
   }
 
   /// The intervals of all but the exchanged one hold what they are in the other set; that one is

@@ -111,7 +111,9 @@ class Describer {
       if (s_.candidates[group].family->named) add(s_.candidates[group].family->id);
     if (const auto others = s_.exchangeable.find(family.id); others != s_.exchangeable.end())
       for (const std::string& id : others->second) add(id);
-    if (s_.context.table.impossible == Impossible::kEfficiencyAboveOne) {
+    // (what a sensor reads otherwise on either way is no friction)
+    const bool reads_either_way = family.stands_alone && !family.is_loss;
+    if (s_.context.table.impossible == Impossible::kEfficiencyAboveOne && !reads_either_way) {
       // Not tried, and not because the data exclude them.
       for (const DriveFamily& hidden : drive_library())
         if (hidden.hides_in_gains && !is_fitted(hidden)) add(hidden.id);
@@ -284,11 +286,21 @@ class Describer {
     const DriveFamily& family = *s_.all.effects()[members.front()].family;
     if (found.named && family.base)
       text += printed(" instead of %.3g as designed", family.base(s_.context));
-    return text + consequence(family, moved) +
-           (found.named
-                ? first_action(found.correction)
-                : std::string(
-                      "; its cause is not known: find it before anything is designed on it"));
+    return text + consequence(family, moved) + action(found, family);
+  }
+
+  /// What to do about it, once what would look the same is ruled out.
+  [[nodiscard]] std::string action(const FoundEffect& found, const DriveFamily& family) const {
+    if (!found.named) return "; its cause is not known: find it before anything is designed on it";
+    const bool changes =
+        family.into_state && family.follows == "load" &&
+        std::any_of(s_.all.effects().begin(), s_.all.effects().end(), [](const DriveEffect& e) {
+          return e.family->stands_alone && e.family->beside_load &&
+                 e.family->beside_load(e.shape) != kOverNothing;
+        });
+    if (changes) return "; no one coefficient to design with: it changes, as told beside this";
+    return first_action(found.correction) +
+           (found.correction.empty() ? "" : once_ruled_out(found.confounded_with));
   }
 
   /// What it does to the efficiency, in points of it, where the drive is loaded.

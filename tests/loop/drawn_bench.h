@@ -17,7 +17,8 @@
 // function of the test. Shares no formula with trueflank/loop.
 namespace trueflank::test {
 
-enum class RowOrder { kShuffled, kUpAndDown, kRuns };
+/// kStandsAtTurns: up and down, and the load stands for one to three rows where it turns.
+enum class RowOrder { kShuffled, kUpAndDown, kRuns, kStandsAtTurns };
 
 /// One row as it was driven.
 struct DrawnRow {
@@ -29,6 +30,7 @@ struct DrawnRow {
   int row = 0;
   int since_turn = 0;  ///< rows since the direction changed
   int way = 0;         ///< of the load
+  double warm_c = 0.0;  ///< temperature
 };
 
 class DrawnBench {
@@ -78,16 +80,36 @@ class DrawnBench {
   }
 
   using Loss = std::function<double(const DrawnRow&)>;
+  /// Temperatures that rise over the run and wander meanwhile.
+  void warm_up() {
+    std::normal_distribution<double> normal;
+    with_temperature = true;
+    const double start = between(18.0, 26.0), span = between(15.0, 35.0);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const double run = static_cast<double>(i) / static_cast<double>(rows.size());
+      rows[i].warm_c =
+          0.1 *
+          std::round(10.0 * (start + span * (1.0 - std::exp(-3.0 * run)) + 4.0 * normal(random_)));
+    }
+  }
+
   /// Readings with a loss at the input, a friction in place of the model's 0.1, and an error of the
   /// output's reading.
   [[nodiscard]] loop::BenchData data(
       const Loss& loss_nm, double friction = 0.1,
       const Loss& output_error_nm = [](const DrawnRow&) { return 0.0; }) {
+    return data(
+        loss_nm, [friction](const DrawnRow&) { return friction; }, output_error_nm);
+  }
+  /// The same with a friction of every row.
+  [[nodiscard]] loop::BenchData data(const Loss& loss_nm, const Loss& friction_of,
+                                     const Loss& output_error_nm) {
     std::normal_distribution<double> normal;
     loop::BenchData data;
     data.files = {"bench.csv"};
     for (const DrawnRow& row : rows) {
-      const double loss = loss_nm(row), f = 1.0 - 10.0 * forward_loss_ * friction,
+      const double friction = friction_of(row), loss = loss_nm(row),
+                   f = 1.0 - 10.0 * forward_loss_ * friction,
                    b = 1.0 - 10.0 * backward_loss_ * friction;
       loop::BenchRow read;
       read.forward = row.forward;
@@ -97,6 +119,7 @@ class DrawnBench {
           noise_input_nm * normal(random_);
       read.output_nm = row.output_nm + output_error_nm(row) + noise_output_nm * normal(random_);
       if (!row.forward) read.input_nm += 0.5 * noise_output_nm / ratio * normal(random_);
+      if (with_temperature) read.temperature_c = row.warm_c;
       if (with_angle) read.angle_deg = 360.0 * row.input_turns;
       read.line = row.row + 2;
       if (read.input_nm > 0.0 && read.output_nm > 0.0) data.rows.push_back(read);
@@ -106,7 +129,7 @@ class DrawnBench {
 
   double ratio = 1.0, most_output_nm = 1.0, noise_output_nm = 0.0, noise_input_nm = 0.0,
          planet_order = 0.5333;
-  bool with_angle = false;
+  bool with_angle = false, with_temperature = false;
   std::vector<double> load_shares, rpm;
   std::vector<DrawnRow> rows;
 
@@ -134,6 +157,15 @@ class DrawnBench {
             for (auto share = load_shares.rbegin() + 1; share != load_shares.rend(); ++share)
               add(all, forward, speed, *share);
           }
+    if (order == RowOrder::kStandsAtTurns)
+      for (const bool forward : {true, false})
+        for (const double speed : rpm) {
+          for (const double share : load_shares) add(all, forward, speed, share);
+          for (int more = whole(1, 2); more > 0; --more)
+            add(all, forward, speed, load_shares.back());
+          for (auto share = load_shares.rbegin() + 1; share != load_shares.rend(); ++share)
+            add(all, forward, speed, *share);
+        }
     if (order == RowOrder::kRuns) {
       const int length = whole(14, 30);
       for (int run = 0; run < 16; ++run)

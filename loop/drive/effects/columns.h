@@ -46,6 +46,8 @@ inline constexpr double kMostFriction = 0.4;
 enum What { kFlanks, kDrag, kOutputReads };
 /// Its change of the driven torque [N m] for 1 N m at the input; of the flanks at the largest load.
 [[nodiscard]] double changed_nm(const DriveContext& context, const BenchPoint& p, double what);
+/// Loss at the input [N m] of the largest load for a unit of the flanks' coefficient.
+[[nodiscard]] double nm_of_coefficient(const DriveContext& context);
 /// 0 ... 1 over the run (order 0), or over the turn that comes so often per turn of the input.
 [[nodiscard]] double place_of_spell(const BenchPoint& p, double order);
 /// Rows since the last rest: the last change of direction (period 0), or what comes again after so

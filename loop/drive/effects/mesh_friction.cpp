@@ -14,6 +14,7 @@ DriveFamily mesh_friction() {
   f.parameters = {"difference"};
   f.shape_names = {"mesh"};
   f.preference = 4;
+  f.of_one_mesh = true;
   f.shapes = [](const DriveContext& context) {
     std::vector<DriveShape> shapes;
     if (context.model.meshes.size() > 1)

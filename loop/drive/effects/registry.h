@@ -49,10 +49,14 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_drift();
 [[nodiscard]] DriveFamily unnamed_spell();
 [[nodiscard]] DriveFamily unnamed_bump();
+[[nodiscard]] DriveFamily unnamed_hysteresis();
+[[nodiscard]] DriveFamily unnamed_play();
 [[nodiscard]] DriveFamily unnamed_way();
 [[nodiscard]] DriveFamily unnamed_after_rest();
 [[nodiscard]] DriveFamily unnamed_wander();
 [[nodiscard]] DriveFamily unnamed_product();
+[[nodiscard]] DriveFamily unnamed_flanks_slope();
+[[nodiscard]] DriveFamily unnamed_reading_slope();
 [[nodiscard]] DriveFamily unnamed_settling();
 [[nodiscard]] DriveFamily unnamed_bend();
 /// @}

@@ -15,12 +15,17 @@ namespace trueflank::loop::drive_effects {
 
 namespace {
 
-/// Change of the driven torque for 1 N m of loss at the input, which the flanks lose at the largest
-/// load.
-double of_flanks(const DriveContext& context, const BenchPoint& p) {
+BenchPoint at_largest_load(const DriveContext& context, const BenchPoint& p) {
   BenchPoint most = p;
   most.load_nm = context.table.most_load_nm;
   most.driving_nm = p.forward ? most.load_nm : most.load_nm * context.model.ratio;
+  return most;
+}
+
+/// Change of the driven torque for 1 N m of loss at the input, which the flanks lose at the largest
+/// load.
+double of_flanks(const DriveContext& context, const BenchPoint& p) {
+  const BenchPoint most = at_largest_load(context, p);
   const double slope = context.friction_slope(most);
   return slope != 0.0 ? -context.lever(most) * context.friction_slope(p) / slope : 0.0;
 }
@@ -61,6 +66,11 @@ std::string turn_in_words(const DriveModel& model, double order) {
   return order == 1.0
              ? "of the input"
              : "of order " + short_text(order) + (member.empty() ? "" : " (" + member + ")");
+}
+
+double nm_of_coefficient(const DriveContext& context) {
+  const BenchPoint most = at_largest_load(context, context.table.points.front());
+  return std::abs(context.friction_slope(most) / context.lever(most));
 }
 
 double changed_nm(const DriveContext& context, const BenchPoint& p, double number) {

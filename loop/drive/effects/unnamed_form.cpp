@@ -64,6 +64,10 @@ DriveFamily unnamed_form() {
       if (s[k] != 0.0) over = over == kOverNothing ? static_cast<double>(k) : kOverSeveral;
     return over;
   };
+  f.beside_load = [](const DriveShape& s) {
+    if (s[3] != 0.0 || s[0] == 0.0 || (s[1] != 0.0) == (s[2] != 0.0)) return kOverNothing;
+    return s[1] != 0.0 ? 1.0 : 2.0;
+  };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& shape, double* c) {
     double value = -context.lever(p);
     if (shape[0] > 0.0) value *= legendre(static_cast<int>(shape[0]), context.load_coordinate(p));

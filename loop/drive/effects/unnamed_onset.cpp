@@ -18,7 +18,9 @@ enum OnsetValue : std::size_t {
   kOnsetPlace,
   kOnsetRises,
   kOnsetPower,
-  kOnsetDirection
+  kOnsetDirection,
+  kOnsetOfFlanks  ///< 1: in proportion to the load, as the flanks' friction; over speed,
+                  ///< temperature
 };
 
 constexpr std::array kOnsetPowers{1.0, 1.25, 1.5, 1.75, 2.0};
@@ -71,6 +73,13 @@ std::vector<Parameter> onset_figures(const DriveContext& context, const DriveSha
   const std::string unit = s[kOnsetOver] == 0.0 ? "output_nm" : key_of_quantity(s[kOnsetOver]);
   const double reached =
       amount * to_the_power(way_beyond(context.share_at(s[kOnsetOver], end), s), s[kOnsetPower]);
+  if (s[kOnsetOfFlanks] != 0.0) {
+    const double nm = nm_of_coefficient(context);
+    return {figure_of((s[kOnsetRises] > 0.0 ? "begins_at_" : "ends_at_") + unit, place),
+            figure_of("slope_nm_per_" + unit, reached * nm / (end - place)),
+            figure_of("amplitude_nm", std::abs(reached) * nm),
+            figure_of("coefficient_change", std::abs(reached))};
+  }
   return {figure_of((s[kOnsetRises] > 0.0 ? "begins_at_" : "ends_at_") + unit,
                     in_words_of_the_bench(context, s[kOnsetOver], place)),
           figure_of("slope_nm_per_" + unit,
@@ -78,8 +87,25 @@ std::vector<Parameter> onset_figures(const DriveContext& context, const DriveSha
           figure_of("amplitude_nm", std::abs(reached))};
 }
 
+/// The friction of the flanks from a speed or a temperature on.
+std::string flanks_onset_told(const DriveContext& context, const DriveShape& s, double amount,
+                              const std::vector<Parameter>& figures) {
+  const std::string unit = unit_of_the_bench(s[kOnsetOver]), of = name_of_quantity(s[kOnsetOver]),
+                    end = printed("%.4g", far_end(context, s)) + unit;
+  const bool more = amount > 0.0;
+  const double found = context.model.friction + context.state.shift,
+               reached = found + (more ? figures[3].value : -figures[3].value);
+  return std::string("the flanks rub ") + (more ? "more " : "less ") +
+         (s[kOnsetRises] > 0.0 ? "from a " : "below a ") + of + " of " +
+         with_interval(figures[0], unit) + (s[kOnsetRises] > 0.0 ? " on" : "") +
+         ": their coefficient is " + with_interval(figures[3], more ? " more" : " less") + " at " +
+         end + printed(", %.3g instead of %.3g, a loss of ", reached, found) +
+         with_interval(figures[2], more ? " N m more" : " N m less") + " at the largest load";
+}
+
 std::string onset_told(const DriveContext& context, const DriveShape& s, double amount,
                        const std::vector<Parameter>& figures) {
+  if (s[kOnsetOfFlanks] != 0.0) return flanks_onset_told(context, s, amount, figures);
   const std::string unit = unit_of_the_bench(s[kOnsetOver]), of = name_of_quantity(s[kOnsetOver]);
   const std::string end =
       printed("%.4g", in_words_of_the_bench(context, s[kOnsetOver], far_end(context, s))) + unit;
@@ -110,7 +136,7 @@ std::string onset_told(const DriveContext& context, const DriveShape& s, double 
 DriveFamily unnamed_onset() {
   DriveFamily f = without_a_name();
   f.parameters = {"amount_nm"};
-  f.shape_names = {"over", "place", "rises", "power", "which_direction"};
+  f.shape_names = {"over", "place", "rises", "power", "which_direction", "of_flanks"};
   f.preference = 7;
   f.stands_alone = true;
   f.over = first_value;
@@ -120,14 +146,19 @@ DriveFamily unnamed_onset() {
                      .limits = [](const DriveContext&) { return std::pair(0.03, 0.97); }},
                     {},
                     {},
+                    {},
                     {}};
+  f.kind = [](const DriveShape& s) { return static_cast<int>(s[kOnsetOfFlanks]); };
+  f.beside_load = [](const DriveShape& s) {
+    return s[kOnsetOfFlanks] != 0.0 ? s[kOnsetOver] : kOverNothing;
+  };
   f.shapes = [](const DriveContext& context) {
     std::vector<DriveShape> shapes;
     for (int over = 0; over < 3; ++over) {
       if (context.table.levels[static_cast<std::size_t>(over)] < 4) continue;
       for (const double place : {0.2, 0.4, 0.6, 0.8})
         for (const double rises : {1.0, -1.0})
-          shapes.push_back({double(over), place, rises, 1.0, 0.0});
+          shapes.push_back({double(over), place, rises, 1.0, 0.0, 0.0});
     }
     return shapes;
   };
@@ -144,13 +175,16 @@ DriveFamily unnamed_onset() {
               ((*about)[kOnsetRises] != rises || (*about)[kOnsetDirection] != which))
             continue;
           if (about == nullptr) {
-            for (const double place : places_between_levels(context, over))
-              shapes.push_back({double(over), place, rises, 1.0, which});
+            for (const double place : places_between_levels(context, over)) {
+              shapes.push_back({double(over), place, rises, 1.0, which, 0.0});
+              if (over != 0) shapes.push_back({double(over), place, rises, 1.0, which, 1.0});
+            }
             continue;
           }
           for (const double power : kOnsetPowers)
             for (const double place : near_and_far_shares(context, (*about)[kOnsetPlace]))
-              shapes.push_back({double(over), place, rises, power, which});
+              shapes.push_back(
+                  {double(over), place, rises, power, which, (*about)[kOnsetOfFlanks]});
         }
     }
     return shapes;
@@ -159,7 +193,8 @@ DriveFamily unnamed_onset() {
   f.kin_shapes = [](const DriveShape& s) {
     std::vector<DriveShape> shapes;
     for (const double power : {1.0, 1.5, 2.0})
-      shapes.push_back({s[kOnsetOver], s[kOnsetPlace], s[kOnsetRises], power, s[kOnsetDirection]});
+      shapes.push_back({s[kOnsetOver], s[kOnsetPlace], s[kOnsetRises], power, s[kOnsetDirection],
+                        s[kOnsetOfFlanks]});
     return shapes;
   };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
@@ -169,7 +204,8 @@ DriveFamily unnamed_onset() {
       return;
     }
     const double beyond = way_beyond(context.share_of_range(p, s[kOnsetOver]), s);
-    c[0] = beyond > 0.0 ? -context.lever(p) * to_the_power(beyond, s[kOnsetPower]) : 0.0;
+    const double unit = s[kOnsetOfFlanks] != 0.0 ? context.friction_slope(p) : -context.lever(p);
+    c[0] = beyond > 0.0 ? unit * to_the_power(beyond, s[kOnsetPower]) : 0.0;
   };
   f.words = [](const DriveModel&, const DriveShape& s, const DriveContext* context) {
     const std::string of = name_of_quantity(s[kOnsetOver]);
@@ -180,7 +216,8 @@ DriveFamily unnamed_onset() {
                                      *context, s[kOnsetOver],
                                      context->quantity_at_share(s[kOnsetOver], s[kOnsetPlace]))) +
                                  unit_of_the_bench(s[kOnsetOver]);
-    return s[kOnsetRises] > 0.0 ? "that begins at a " + of + at : "that ends at a " + of + at;
+    return std::string(s[kOnsetOfFlanks] != 0.0 ? "by friction of the flanks " : "") +
+           (s[kOnsetRises] > 0.0 ? "that begins at a " : "that ends at a ") + of + at;
   };
   f.figures = onset_figures;
   f.told = onset_told;

@@ -22,6 +22,7 @@ DriveFamily unnamed_product() {
     c[0] = -context.lever(p) * (p.load_nm / context.table.most_load_nm) *
            (p.speed_rpm / context.table.most_speed_rpm);
   };
+  f.beside_load = [](const DriveShape&) { return 1.0; };
   f.words = [](const DriveModel&, const DriveShape&, const DriveContext*) {
     return std::string("in proportion to the load times the speed");
   };
