@@ -318,7 +318,8 @@ class Asking {
       std::vector<double> driven;
       for (const Eigen::Index i : rows)
         driven.push_back(table_.points[static_cast<std::size_t>(i)].driven_nm);
-      scatter = std::max(scatter, step_of(std::move(driven)) / std::sqrt(12.0));
+      scatter = std::max({scatter, step_of(std::move(driven)) / std::sqrt(12.0),
+                          rounding_of(table_.points, forward)});
       const double rms = left_(rows).norm() / std::sqrt(static_cast<double>(rows.size()));
       times = std::max(times, rms / std::max(scatter, 1e-9 * left_.cwiseAbs().maxCoeff() + 1e-300));
       noise += scatter * scatter * static_cast<double>(rows.size());
@@ -375,9 +376,11 @@ class Asking {
     found.share = 1.0 - noise.squaredNorm() / std::max(left_.squaredNorm(), 1e-300);
     found.noise_nm = std::sqrt(noise.squaredNorm() / std::max(1.0, n - fitted));
     const double times = std::sqrt(left_.squaredNorm() / n) / std::max(found.noise_nm, 1e-300);
-    found.follows = "what is left is " + printed("%.2g", std::max(1.0, times)) +
-                    " times the noise and " +
-                    (told != nullptr ? follows_in_words(*told) : slow_in_words(noise));
+    constexpr double kHardly = 1.1;
+    found.follows =
+        (times < kHardly ? "what is left is hardly more than the noise, but "
+                         : "what is left is " + printed("%.2g", times) + " times the noise and ") +
+        (told != nullptr ? follows_in_words(*told) : slow_in_words(noise));
   }
 
   [[nodiscard]] bool set_points_come_again() const {

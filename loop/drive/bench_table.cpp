@@ -66,6 +66,8 @@ double fit_direction(const std::vector<BenchPoint>& points, bool forward,
       w[r] = std::abs(left[r]) > 2.0 * sigma ? 2.0 * sigma / std::abs(left[r]) : 1.0;
   }
   for (Eigen::Index r = 0; r < n; ++r) residual[rows[r]] = left[r];
+  // What stands on a few steps scatters by these: the middle of its sizes is next to nothing.
+  sigma = std::max(sigma, rounding_of(points, forward));
   // Data without noise: far below any sensor, so that weights stay finite.
   return std::max(sigma, 1e-9 * y.cwiseAbs().maxCoeff() + 1e-300);
 }
@@ -216,7 +218,7 @@ class TableMaker {
     for (std::size_t k = 0; k < far.size(); ++k)
       if (alone(k) && again[{set_point[far[k]], fit.residual_nm[far[k]] > 0.0}] < kComesAgain)
         out.push_back(far[k]);
-    if (come_again(fit, out)) return false;
+    if (come_again(fit, out) || is_of_a_turn(out)) return false;
     // Many rows far off, or neighbours together, are structure and no slips.
     if (out.empty() || static_cast<double>(out.size()) >
                            std::max(1.0, kMostOutliers * static_cast<double>(table_.points.size())))
@@ -238,17 +240,45 @@ class TableMaker {
 
   /// Several rows that lie off to one side, about as far, are what comes again: a tooth that is
   /// damaged, a seal that sticks. Slips lie to either side, or far beyond each other.
-  [[nodiscard]] static bool come_again(const SmoothFit& fit, const std::vector<std::size_t>& out) {
+  [[nodiscard]] bool come_again(const SmoothFit& fit, const std::vector<std::size_t>& out) const {
     constexpr std::size_t kSeveral = 4;
     constexpr double kAlike = 3.0, kMost = 0.8;
     if (out.size() < kSeveral) return false;
     std::vector<double> size;
-    for (const std::size_t i : out) size.push_back(fit.residual_nm[i]);
+    for (const std::size_t i : out)
+      size.push_back(fit.residual_nm[i] /
+                     (table_.points[i].forward ? fit.sigma_forward_nm : fit.sigma_backward_nm));
     const double middle = median(size);
     const auto alike = std::count_if(size.begin(), size.end(), [&](double one) {
       return one / middle > 1.0 / kAlike && one / middle < kAlike;
     });
     return static_cast<double>(alike) > kMost * static_cast<double>(size.size());
+  }
+
+  /// Rows that all lie in one part of a turn are what a chip or a burr does there (Rayleigh's
+  /// test).
+  [[nodiscard]] bool is_of_a_turn(const std::vector<std::size_t>& out) const {
+    constexpr std::size_t kSeveral = 4;
+    constexpr double kSure = 12.0;  // once in 160 000, of few shafts
+    constexpr double kTurns = 2.0, kAllAround = 0.3;
+    if (!table_.has_angle || out.size() < kSeveral) return false;
+    std::vector<double> orders{1.0};
+    for (const MemberOrder& member : model_.orders) orders.push_back(member.order);
+    return std::any_of(orders.begin(), orders.end(), [&](double order) {
+      // (of what was seen all around)
+      const auto length = [&](const auto& rows, const auto& angle) {
+        double cosine = 0.0, sine = 0.0;
+        for (const auto& row : rows) {
+          cosine += std::cos(order * angle(row));
+          sine += std::sin(order * angle(row));
+        }
+        return std::hypot(cosine, sine) / static_cast<double>(rows.size());
+      };
+      const double seen = length(table_.points, [](const BenchPoint&p) { return p.angle_rad; }),
+                   far = length(out, [&](std::size_t i) { return table_.points[i].angle_rad; });
+      return order * table_.turns >= kTurns && seen < kAllAround &&
+             far * far * static_cast<double>(out.size()) > kSure;
+    });
   }
 
   /// Set points of one direction and a sixth of its loads that deliver more than they take.

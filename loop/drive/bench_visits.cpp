@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "trueflank/base/units.h"
 
@@ -51,6 +52,34 @@ double step_of(std::vector<double> values) {
   for (std::size_t k = 1; k < values.size(); ++k)
     if (values[k] - values[k - 1] > rounding) step = std::min(step, values[k] - values[k - 1]);
   return step < 1e300 ? step : 0.0;
+}
+
+double lattice_step_of(const std::vector<double>& values) {
+  constexpr std::size_t kFewest = 16;
+  constexpr double kOff = 0.02;  // of a step
+  const double step = step_of(values);
+  if (values.size() < kFewest || !(step > 0.0)) return 0.0;
+  std::set<long long> places;
+  for (const double value : values) {
+    const double steps = value / step;
+    if (std::abs(steps - std::round(steps)) > kOff) return 0.0;
+    places.insert(std::llround(steps));
+  }
+  return 4 * places.size() < 3 * values.size() ? step : 0.0;
+}
+
+double rounding_of(const std::vector<BenchPoint>& points, bool forward) {
+  std::vector<double> own, other;
+  double sensitivity = 0.0, rows = 0.0;
+  for (const BenchPoint& p : points) {
+    (p.forward == forward ? own : other).push_back(p.driven_nm);
+    if (p.forward != forward || !(p.driving_nm > 0.0)) continue;
+    sensitivity += p.driven_nm / p.driving_nm;
+    rows += 1.0;
+  }
+  if (!(rows > 0.0)) return 0.0;
+  return std::hypot(lattice_step_of(own), sensitivity / rows * lattice_step_of(other)) /
+         std::sqrt(12.0);
 }
 
 std::vector<double> values_of(const std::vector<BenchPoint>& points, double BenchPoint::*member) {

@@ -36,6 +36,13 @@ namespace trueflank::loop {
 [[nodiscard]] double correlation_of_visits(const Eigen::VectorXd& size,
                                            const std::vector<int>& set_point);
 
+/// Step of a lattice on which all values lie and many come again, as coarse readings do; 0: they
+/// are read finely.
+[[nodiscard]] double lattice_step_of(const std::vector<double>& values);
+/// What readings in steps of both sensors add to the driven torque of a direction, standard
+/// deviation [N m]. A sensor's step shows where it reads the driven side.
+[[nodiscard]] double rounding_of(const std::vector<BenchPoint>& points, bool forward);
+
 /// @name What a series of visits is made of
 /// @{
 inline constexpr int kSlowWaves = 4;  ///< half waves over the run that are called slow

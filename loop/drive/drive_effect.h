@@ -157,6 +157,7 @@ struct DriveFamily : EffectFacts {
   /// the same.
   bool follows_the_run = false;
   bool differs_by_direction = false;    ///< a loss that does what a sensor does: data that gain power show the sensor
+  bool drifts = false;  ///< a loss that changes evenly over the run: warmth may be the reason
   bool of_one_mesh = false;             ///< of the friction of one mesh alone
   bool bends_over_load = false;         ///< as a bent sensor does: told from that by the other direction alone
   bool hides_in_gains = false;          ///< a loss that data with gained power can neither show nor exclude

@@ -72,6 +72,7 @@ DriveOutcome DriveSelection::choose() {
   }
   for (int waves = 0; waves < 4 && propose_wave(outcome); ++waves) outcome = settle();
   sharpen_courses(outcome);
+  const DriveOutcome whole = outcome;
   if (!outcome.effects.empty()) outcome = simplest_that_is_enough(std::move(outcome));
   sharpen_courses(outcome);
   tell_as_one_form(outcome);
@@ -80,6 +81,8 @@ DriveOutcome DriveSelection::choose() {
   prefer_plainer_names(outcome);
   drop_what_is_nothing(outcome);
   veto(outcome);
+  if (vetoed_) stand_by_the_whole(whole, outcome);
+  if (vetoed_) drop_what_is_nothing(outcome);
   return outcome;
 }
 

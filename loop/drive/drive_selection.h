@@ -180,6 +180,9 @@ class DriveSelection {
   /// The locked hold-out may say no: while its error would rise, the effect goes that harms it
   /// most.
   void veto(DriveOutcome& outcome);
+  /// Where the hold-out denies the simpler set: what was chosen before it was made simpler, if it
+  /// denies none of that.
+  void stand_by_the_whole(const DriveOutcome& whole, DriveOutcome& outcome);
   void leave_out(DriveOutcome& outcome, std::size_t effect);
   void remember(const DriveOutcome& kept, const DriveOutcome& other);
 

@@ -52,11 +52,12 @@ bool is_zero(const DriveEffect& effect, double over) {
          effect.shape.empty() && !family.base;
 }
 
-/// A friction of the flanks by another law than the plainest: beside forms in proportion to the
-/// load it may only have mended these.
-bool is_named_beside_load(const DriveEffect& effect) {
+/// A friction of the flanks by another law than the plainest, or one that drifts as the drive
+/// warms: beside forms in proportion to the load it may only have mended these.
+bool is_named_beside_load(const DriveEffect& effect, double over) {
   const DriveFamily& family = *effect.family;
-  return family.named && family.preference > 0 && family.follows == "load";
+  return family.named && family.preference > 0 &&
+         (family.follows == "load" || (over == 2.0 && family.drifts));
 }
 
 /// A name of the same course that has no shape to move: a loss that nearly every bench has.
@@ -143,7 +144,7 @@ void DriveSelection::tell_as_one_form(DriveOutcome& outcome) {
         const DriveEffect& effect = outcome.effects[e];
         const bool name =
             with_names && (is_named_over(effect, over) ||
-                           (with_load && over != 0.0 && is_named_beside_load(effect)));
+                           (with_load && over != 0.0 && is_named_beside_load(effect, over)));
         any_name = any_name || name;
         // What is plain may have mended the pieces too: it is asked anew.
         if (piece(effect) || is_constant_piece(effect) || name || is_plain(effect, with_load) ||

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
+#include <utility>
 
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/drive/bench_remainder.h"
@@ -279,7 +280,8 @@ bool DriveSelection::is_possible(const DriveOutcome& outcome) const {
 
 void DriveSelection::drop_what_is_nothing(DriveOutcome& outcome) {
   constexpr double kStandsOut = 3.0;  // standard errors
-  while (outcome.effects.size() > 1) {
+  // (one of several that mended each other may be nothing without the ones that were taken back)
+  while (outcome.effects.size() > (vetoed_ ? 0 : 1)) {
     const DriveContext here = context();
     const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
     const Eigen::MatrixXd covariance = fit.covariance();
@@ -324,6 +326,20 @@ void DriveSelection::veto(DriveOutcome& outcome) {
     leave_out(outcome, worst);
     vetoed_ = true;
   }
+}
+
+void DriveSelection::stand_by_the_whole(const DriveOutcome& whole, DriveOutcome& outcome) {
+  const DriveState state = state_;
+  DriveOutcome fuller = whole;
+  settle_after_exchange(fuller);
+  vetoed_ = false;
+  veto(fuller);
+  if (!vetoed_ && !fuller.effects.empty()) {
+    outcome = std::move(fuller);
+    return;
+  }
+  vetoed_ = true;
+  state_ = state;
 }
 
 void DriveSelection::leave_out(DriveOutcome& outcome, std::size_t effect) {

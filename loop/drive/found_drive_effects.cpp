@@ -80,7 +80,8 @@ class Describer {
       members_[place->second].push_back(e);
       add_terms(found_[place->second].terms, e);
     }
-    for (const auto& [order, place] : unnamed_at) finish_unnamed(found_[place], order);
+    for (const auto& [order, place] : unnamed_at)
+      finish_unnamed(found_[place], order, members_[place]);
     for (std::size_t i = 0; i < found_.size(); ++i) add_figures(found_[i], members_[i]);
     share_what_is_explained();
     return std::move(found_);
@@ -244,8 +245,13 @@ class Describer {
     for (Term& term : found.terms) term.text = found.description;
   }
 
-  void finish_unnamed(FoundEffect& found, double order) const {
+  void finish_unnamed(FoundEffect& found, double order, const std::vector<int>& members) const {
     sort_by_size(found.terms);
+    // Pieces of one course that are smaller than their error say nothing beside its larger ones.
+    std::set<std::string> said;
+    std::erase_if(found.terms, [&](const Term& t) {
+      return !said.insert(t.text).second && t.amplitude() < t.half_width;
+    });
     found.description = "a loss at the input ";
     bool first = true;
     for (const Term& t : found.terms) {
@@ -253,7 +259,65 @@ class Describer {
       found.description += (first ? "" : "; and ") + t.text;
       first = false;
     }
-    found.parameters = parameters_of_terms(found.terms, order, "amplitude_nm", false);
+    found.parameters = parameters_of_terms(found.terms, order, "amplitude_nm", order != 0.0);
+    found.description +=
+        order != 0.0 ? where_a_wave_is_most(found.terms.front(), order) : where_it_is_most(members);
+  }
+
+  /// At which angle of the input the loss is most.
+  [[nodiscard]] static std::string where_a_wave_is_most(const Term& term, double order) {
+    const double most = deg_from_rad(std::atan2(term.sin, term.cos)) / order, every = 360.0 / order;
+    return printed(", most at %.3g degrees of the input", most < 0.0 ? most + every : most) +
+           (every < 359.0 || every > 361.0 ? printed(" and every %.4g degrees on", every) : "");
+  }
+
+  /// True of courses without a name: where they cost most and least, and how much, says their sign.
+  [[nodiscard]] bool tells_sizes(const std::vector<int>& members) const {
+    return std::all_of(members.begin(), members.end(), [&](int e) {
+      const DriveEffect& effect = s_.all.effects()[e];
+      return !effect.family->named && effect.family->is_loss && !effect.family->stands_alone &&
+             effect.order() == 0.0;
+    });
+  }
+
+  /// Where what they tell together costs most and least, and by how much.
+  [[nodiscard]] std::string where_it_is_most(const std::vector<int>& members) const {
+    constexpr double kNothing = 0.02;
+    if (!tells_sizes(members)) return "";
+    const auto& points = s_.context.table.points;
+    Eigen::VectorXd lost = Eigen::VectorXd::Zero(s_.value.size());
+    // over load, speed, temperature; the directions, the course of the run
+    bool over[3] = {false, false, false}, directions = false, run = false;
+    for (const int e : members) {
+      const DriveEffect& effect = s_.all.effects()[e];
+      lost += s_.all.explained_nm(e);
+      bool any = false;
+      for (const DriveShape& term : effect.family->term_shapes(effect.shape)) {
+        for (const std::size_t k : {0U, 1U, 2U}) any = (over[k] = over[k] || term[k] != 0.0) || any;
+        directions = directions || term[4] != 0.0;
+      }
+      run = run || (!any && !effect.family->piece_over);
+    }
+    for (Eigen::Index i = 0; i < lost.size(); ++i)
+      lost[i] /= -s_.context.lever(points[static_cast<std::size_t>(i)]);
+    Eigen::Index low = 0, high = 0;
+    lost.minCoeff(&low);
+    lost.maxCoeff(&high);
+    const auto at = [&](Eigen::Index i) {
+      const BenchPoint& p = points[static_cast<std::size_t>(i)];
+      std::string text;
+      const auto add = [&](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
+      if (over[0]) add(printed("%.3g N m", p.load_nm));
+      if (over[1]) add(printed("%.4g rpm", p.speed_rpm));
+      if (over[2]) add(printed("%.3g C", p.temperature_c));
+      if (run) add("line " + std::to_string(p.line));
+      if (directions || run) add(p.forward ? "forward" : "backward");
+      if (std::abs(lost[i]) < kNothing * lost.cwiseAbs().maxCoeff())
+        return "next to nothing at " + text;
+      return printed("%.3g N m ", std::abs(lost[i])) + (lost[i] > 0.0 ? "more" : "less") +
+             (text.empty() ? "" : " at " + text);
+    };
+    return ": " + at(high) + ", " + at(low);
   }
 
   void add_figures(FoundEffect& found, const std::vector<int>& members) const {
@@ -278,7 +342,7 @@ class Describer {
     // What is told with its figures has told them.
     const DriveFamily& first = *s_.all.effects()[members.front()].family;
     const bool told = first.told && (found.named || first.stands_alone);
-    if (!told && main < found.parameters.size()) {
+    if (!told && (found.named || !tells_sizes(members)) && main < found.parameters.size()) {
       const Parameter& p = found.parameters[main];
       const auto [name, unit] = name_and_unit(p.name);
       text += ": " + name + printed(" %.3g", p.value) + (unit.empty() ? "" : " " + unit);
@@ -308,23 +372,28 @@ class Describer {
                                         const Eigen::VectorXd& moved) const {
     const double size = rms_of(s_.context, moved, false, true);
     if (!std::isfinite(size)) return {};
-    double sum = 0.0, count = 0.0;
+    double sum = 0.0, count = 0.0, sizes = 0.0, most = 0.0;
     for (std::size_t i = 0; i < s_.context.table.points.size(); ++i) {
       const BenchPoint& p = s_.context.table.points[i];
       if (p.load_nm < kLoaded * s_.context.table.most_load_nm) continue;
-      sum += moved[static_cast<Eigen::Index>(i)] * 100.0 /
-             (p.load_nm * (p.forward ? s_.context.model.ratio : 1.0));
+      const double points = moved[static_cast<Eigen::Index>(i)] * 100.0 /
+                            (p.load_nm * (p.forward ? s_.context.model.ratio : 1.0));
+      sum += points;
+      sizes += std::abs(points);
+      most = std::max(most, std::abs(points));
       count += 1.0;
     }
-    // one that has no side to speak of comes and goes, or raises one direction and lowers the other
-    const bool up_and_down = std::abs(sum) < 0.7 * size * count;
+    // one that has no side to speak of comes and goes, or raises one direction and lowers the
+    // other; one of one side alone costs where it is
+    constexpr double kOneSided = 0.95;
+    const bool spread = std::abs(sum) < 0.7 * size * count,
+               up_and_down = spread && std::abs(sum) < kOneSided * sizes;
     if (!family.is_loss)
       return printed(", which falsifies the efficiency by %.2g points under load", size);
     if (up_and_down)
       return printed(", which moves the efficiency by %.2g points up and down under load", size);
-    return printed(sum < 0.0 ? ", which costs %.2g points of efficiency under load"
-                             : ", which adds %.2g points of efficiency under load",
-                   size);
+    return std::string(sum < 0.0 ? ", which costs " : ", which adds ") + (spread ? "up to " : "") +
+           printed("%.2g points of efficiency under load", spread ? most : size);
   }
 
   /// Every effect's share of what all explain together.

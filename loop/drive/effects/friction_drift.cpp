@@ -12,6 +12,7 @@ DriveFamily friction_drift() {
   f.correction = "run the drive in; take the first set points again at the end; log temperature_c";
   f.parameters = {"drift"};
   f.preference = 4;
+  f.drifts = true;
   f.shapes = where_rows_follow_each_other;
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape&, double* c) {
     c[0] = context.friction_slope(p) * p.taken;
