@@ -295,10 +295,8 @@ class DriveReport {
     if (selection_.table().impossible == Impossible::kNothing) return;
     if (selection_.table().impossible == Impossible::kEfficiencyAboveOne) {
       r.verdict = Verdict::kPartlyExplained;
-      const bool losses = std::any_of(r.effects.begin(), r.effects.end(), [](const FoundEffect& f) {
-        const DriveFamily* family = find_drive_family(f.id);
-        return family == nullptr || family->is_loss;
-      });
+      const bool losses = std::any_of(effects.begin(), effects.end(),
+                                      [](const auto& e) { return e.family->is_loss; });
       const bool reads_oddly = std::any_of(effects.begin(), effects.end(), [](const auto& e) {
         return !e.family->named && !e.family->is_loss;
       });

@@ -348,7 +348,7 @@ class Describer {
       text += ": " + name + printed(" %.3g", p.value) + (unit.empty() ? "" : " " + unit);
     }
     const DriveFamily& family = *s_.all.effects()[members.front()].family;
-    if (found.named && family.base)
+    if (found.named && family.base && !told)
       text += printed(" instead of %.3g as designed", family.base(s_.context));
     return text + consequence(family, moved) + action(found, family);
   }

@@ -92,6 +92,7 @@ TEST(UnknownOnBenches, AHysteresisOfConstantWidthIsToldWithItsWidthWhateverStand
                 closed,
                 form != nullptr && closed->result.effects.size() == 1 &&
                     is_about(*form, "to_either_side_nm", half, 0.12) &&
+                    closed->result.structure_left.find("losses beside") == std::string::npos &&
                     form->sentence.find("middle of the range") == std::string::npos);
   }
   std::printf("hysteresis of constant width: %s", answers.text().c_str());
@@ -164,6 +165,8 @@ TEST(UnknownOnBenches, FlanksThatRubLessTheWarmerTheyAreSayTheirCoefficientAtEit
   for (int run = 1; run <= kBenches; ++run) {
     const auto seed = static_cast<std::uint64_t>(55000 + run);
     DrawnBench bench(seed, RowOrder::kShuffled);
+    // Flanks that lose next to nothing do not show what they do.
+    if (1.0 - bench.model().efficiency({0.1}).forward < 0.025) continue;
     bench.warm_up();
     const double rate = bench.between(0.008, 0.02) * (run % 2 == 0 ? 1.0 : -1.0);
     const auto mu = [&](double c) { return 0.1 * std::exp(-rate * (c - 35.0)); };
@@ -183,7 +186,7 @@ TEST(UnknownOnBenches, FlanksThatRubLessTheWarmerTheyAreSayTheirCoefficientAtEit
                     form->sentence.find(rate > 0.0 ? "rub less" : "rub more") != std::string::npos);
   }
   std::printf("friction that follows the warmth: %s", answers.text().c_str());
-  EXPECT_GE(answers.right, answers.seldom_fewer(0.9)) << answers.text();
+  EXPECT_GE(answers.right, answers.seldom_fewer(0.85)) << answers.text();
 }
 
 TEST(UnknownOnBenches, AZeroThatFollowsTheWarmthIsOneReadingWithItsSign) {
@@ -254,7 +257,9 @@ TEST(UnknownOnBenches, AScaleIsNoFrictionThatWouldBeNextToNothingInOneDirection)
     if (closed)
       for (const loop::FoundEffect& effect : closed->result.effects) {
         scale =
-            scale || (effect.id == "torque_scale" && is_about(effect, "factor", 1.0 + off, 0.01));
+            scale || (effect.id == "torque_scale" && is_about(effect, "factor", 1.0 + off, 0.01) &&
+                      effect.sentence.find(off > 0.0 ? "too much against" : "too little against") !=
+                          std::string::npos);
         if (effect.id == "direction_dependent_friction") {
           // Of flanks of 0.1 that lose little a small scale may be a likely difference.
           const loop::Parameter* p = parameter(effect, "difference");

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <string>
+
+#include "trueflank/base/number_text.h"
 #include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/effects/registry.h"
 
@@ -13,6 +17,10 @@ DriveFamily direction_dependent_drag() {
   f.parameters = {"difference_nm"};
   f.preference = 4;
   f.differs_by_direction = true;
+  f.told = [](const DriveContext&, const DriveShape&, double more, const auto&) {
+    return std::string("the drag at the input is larger when the ") +
+           (more > 0.0 ? "output" : "input") + printed(" drives, by %.3g N m", std::abs(more));
+  };
   f.shapes = [](const DriveContext& context) {
     return context.table.has(true) && context.table.has(false)
                ? std::vector<DriveShape>{{}}

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <string>
+
+#include "trueflank/base/number_text.h"
 #include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/effects/registry.h"
 
@@ -12,6 +16,10 @@ DriveFamily drag_drift() {
   f.correction = "run the drive in and warm before measuring; log temperature_c";
   f.parameters = {"drift_nm"};
   f.preference = 4;
+  f.told = [](const DriveContext&, const DriveShape&, double more, const auto&) {
+    return std::string("the drag at the input ") + (more > 0.0 ? "grows" : "falls") +
+           printed(" over the run, by %.3g N m to its end", std::abs(more));
+  };
   f.follows_the_run = true;
   f.shapes = where_rows_follow_each_other;
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape&, double* c) {

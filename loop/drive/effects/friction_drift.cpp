@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <string>
+
+#include "trueflank/base/number_text.h"
 #include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/effects/registry.h"
 
@@ -13,6 +17,10 @@ DriveFamily friction_drift() {
   f.parameters = {"drift"};
   f.preference = 4;
   f.drifts = true;
+  f.told = [](const DriveContext&, const DriveShape&, double more, const auto&) {
+    return std::string("the flanks' coefficient of friction ") + (more > 0.0 ? "grows" : "falls") +
+           printed(" over the run, by %.3g to its end", std::abs(more));
+  };
   f.shapes = where_rows_follow_each_other;
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape&, double* c) {
     c[0] = context.friction_slope(p) * p.taken;

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <string>
+
+#include "trueflank/base/number_text.h"
 #include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/effects/registry.h"
 
@@ -29,6 +33,12 @@ DriveFamily mesh_friction() {
     state.mesh_value[static_cast<std::size_t>(shape[0]) - 1] = b;
   };
   f.plausible = can_be_friction;
+  f.told = [](const DriveContext& context, const DriveShape& shape, double more, const auto&) {
+    return "the mesh " + context.model.meshes[static_cast<std::size_t>(shape[0]) - 1] + " rubs " +
+           (more > 0.0 ? "more" : "less") + " than the others: its coefficient is " +
+           printed("%.3g ", std::abs(more)) + (more > 0.0 ? "higher" : "lower") +
+           printed(" (difference %.3g)", more);
+  };
   f.detail = [](const DriveModel& model, const DriveShape& shape) {
     return " (" + model.meshes[static_cast<std::size_t>(shape[0]) - 1] + ")";
   };

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
+#include <string>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/effects/registry.h"
 
@@ -25,6 +28,12 @@ DriveFamily torque_scale() {
   f.base = [](const DriveContext&) { return 1.0; };
   f.into_state = [](DriveState& state, const DriveShape&, double b) {
     state.scale = std::clamp(1.0 + b, 0.2, 5.0);
+  };
+  f.told = [](const DriveContext&, const DriveShape&, double more, const auto&) {
+    const char *one = more > 0.0 ? "much" : "little", *other = more > 0.0 ? "little" : "much";
+    return printed("the output's torque reads %.2g %% too ", 100.0 * std::abs(more)) + one +
+           printed(" against the input's (factor %.4g), or the input's as much too ", 1.0 + more) +
+           other + " (two sensors show only their ratio)";
   };
   f.not_carried = kOfTheBench;
   f.told_from = {{"friction_coefficient",

@@ -15,11 +15,16 @@ namespace trueflank::loop::drive_effects {
 
 namespace {
 
-/// Over which quantity, and at which share of its range it is nothing.
-enum SlopeValue : std::size_t { kSlopeOver, kSlopeFrom };
+/// Over which quantity, at which share of its range it is nothing, and how it bends: evenly (0), or
+/// as what grows (above 0) or fades by the same part in every degree.
+enum SlopeValue : std::size_t { kSlopeOver, kSlopeFrom, kSlopeBend };
+constexpr double kBend = 0.6;  // a factor of 1.8 over the range
 constexpr double kLeastFrom = -0.6, kMostFrom = 1.6;
 
-double along(const DriveShape& s, double share) { return share - s[kSlopeFrom]; }
+double along(const DriveShape& s, double share) {
+  const double way = share - s[kSlopeFrom], bend = s[kSlopeBend];
+  return bend == 0.0 ? way : std::expm1(bend * way) / bend;
+}
 
 bool changes_enough(const DriveContext& context, double over) {
   const BenchTable& table = context.table;
@@ -32,7 +37,7 @@ std::vector<DriveShape> slopes_over(std::initializer_list<double> quantities,
   std::vector<DriveShape> shapes;
   for (const double over : quantities)
     if (changes_enough(context, over))
-      for (const double from : {0.5, 0.0}) shapes.push_back({over, from});
+      for (const double from : {0.5, 0.0}) shapes.push_back({over, from, 0.0});
   return shapes;
 }
 
@@ -41,7 +46,7 @@ std::vector<DriveShape> slopes_about(const DriveContext& context, const DriveSha
   std::vector<DriveShape> shapes;
   for (const double step : growing_steps(context, 0.005, 1.5))
     if (const double from = about[kSlopeFrom] + step; from >= kLeastFrom && from <= kMostFrom)
-      shapes.push_back({about[kSlopeOver], from});
+      shapes.push_back({about[kSlopeOver], from, about[kSlopeBend]});
   return shapes;
 }
 
@@ -79,7 +84,7 @@ std::string reading_told(const DriveContext& context, const DriveShape& s, doubl
 DriveFamily slope() {
   DriveFamily f = without_a_name();
   f.parameters = {"amount_nm"};
-  f.shape_names = {"over", "from"};
+  f.shape_names = {"over", "from", "bend"};
   f.preference = 7;
   f.stands_alone = true;
   f.over = first_value;
@@ -95,6 +100,13 @@ DriveFamily slope() {
 DriveFamily unnamed_flanks_slope() {
   DriveFamily f = slope();
   f.beside_load = first_value;
+  f.is_odd = [](const DriveShape& s) { return s[kSlopeBend] != 0.0; };
+  f.kin_shapes = [](const DriveShape& s) {
+    std::vector<DriveShape> shapes;
+    for (const double bend : {0.0, kBend, -kBend})
+      shapes.push_back({s[kSlopeOver], s[kSlopeFrom], bend});
+    return shapes;
+  };
   // Over the speed it is tried in place of several forms; alone a product of load and speed does as
   // well.
   f.shapes = [](const DriveContext& context) { return slopes_over({2.0}, context); };
@@ -109,12 +121,12 @@ DriveFamily unnamed_flanks_slope() {
     return std::abs(amount) < 2.0 * model.friction || std::abs(amount) < 0.5 * kMostFriction;
   };
   f.figures = [](const DriveContext& context, const DriveShape& s, double amount) {
-    const double size = std::abs(amount);
+    const double change = amount * (along(s, 1.0) - along(s, 0.0)), size = std::abs(change);
     return std::vector<Parameter>{
         figure_of("amplitude_nm", size * nm_of_coefficient(context)),
         figure_of("coefficient_change", size),
         figure_of("coefficient_per_" + key_of_quantity(s[kSlopeOver]),
-                  amount / (context.quantity_at_share(s[kSlopeOver], 1.0) -
+                  change / (context.quantity_at_share(s[kSlopeOver], 1.0) -
                             context.quantity_at_share(s[kSlopeOver], 0.0)))};
   };
   f.told = flanks_told;
