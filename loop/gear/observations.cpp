@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 
@@ -103,8 +104,12 @@ class TableBuilder {
     BadLines bad(data.file);
     ForeignRows foreign;
     const std::size_t before = table.rows.size();
+    InspectionData of_gear;
+    of_gear.common_zero = data.common_zero;
+    std::copy_if(data.rows.begin(), data.rows.end(), std::back_inserter(of_gear.rows),
+                 [&](const InspectionRow& row) { return foreign_row(row).empty(); });
     for (const RecordKind kind : {RecordKind::kProfile, RecordKind::kHelix}) {
-      const std::optional<double> scatter_um = zeros_at_places_um(data, kind);
+      const std::optional<double> scatter_um = zeros_at_places_um(of_gear, kind);
       own_zeros_[static_cast<std::size_t>(kind)] = scatter_um.has_value();
       if (scatter_um)
         table.notes.push_back(

@@ -164,5 +164,37 @@ TEST(BodyForms, ThreePinsAtAnEndAreThreePlaces) {
   }
 }
 
+TEST(BodyForms, WallsByTheDirectionOfAPointAreNoEccentricity) {
+  const MadeGear gear = spur(23);
+  for (const unsigned seed : {2U, 4U}) {
+    const auto made = grown([](auto&, auto&, const Vec3& p) {
+      return 24.0 * std::cos(std::atan2(p[1], p[0]) - radians(69.0));
+    });
+    const auto result = measured(gear, made, 4.0, seed);
+    EXPECT_TRUE(tells(result, "by their direction, once per turn")) << list(result);
+    ASSERT_EQ(terms_of(result).size(), 1U) << list(result);
+    EXPECT_EQ(result.effects.size(), 1U) << list(result);
+    EXPECT_NEAR(terms_of(result)[0]->amplitude(), 24.0, 1.0) << list(result);
+  }
+}
+
+TEST(BodyForms, ABeltThatIsWiderIsOneFormOfTheRadius) {
+  const MadeGear gear = spur(26);
+  for (const unsigned seed : {2U, 4U}) {
+    const auto made = grown([](const MadeGear& g, const FlankSpot& s, const Vec3& p) {
+      return outwards(g, s, p, 90.0 * std::exp(-std::pow((s.v - 0.1) / 0.35, 2)));
+    });
+    const auto result = measured(gear, made, 4.0, seed);
+    EXPECT_TRUE(tells(result, "the body is wider")) << list(result);
+    // (echoes of a quarter of the noise may stand beside it)
+    ASSERT_FALSE(terms_of(result).empty()) << list(result);
+    for (const loop::Term* term : terms_of(result))
+      if (term != terms_of(result)[0]) {
+        EXPECT_LT(term->amplitude(), 1.0) << list(result);
+      }
+    EXPECT_NEAR(terms_of(result)[0]->amplitude(), 90.0, 5.0) << list(result);
+  }
+}
+
 }  // namespace
 }  // namespace trueflank::test

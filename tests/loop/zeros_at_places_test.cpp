@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -101,6 +102,22 @@ TEST(ZerosAtPlaces, OfTheirOwnLeaveATaperAndItsNoise) {
   ASSERT_FALSE(result.notes.empty());
   EXPECT_NE(result.notes.front().find("zero of its own"), std::string::npos)
       << result.notes.front();
+}
+
+// A value that no gear has, and one that is wild, change nothing of it.
+TEST(ZerosAtPlaces, AreToldBesideWildValues) {
+  const MadeGear gear = spur(23);
+  const auto made = grown([](auto&, const FlankSpot& s, auto&) { return 3.0 * s.u; });
+  for (const double wild : {1e308, -900.0}) {
+    auto data = topography(gear, made, Zeros::kOfTraces, {0.2, 0.5, 0.8}, 1, 0.7, 5.0, 9);
+    data.rows[77].deviation_um = wild;
+    const auto result = close(gear, data);
+    EXPECT_LT(result.noise, 0.8) << list(result);
+    const auto said = std::count_if(result.notes.begin(), result.notes.end(), [](const auto& note) {
+      return note.find("zero of its own") != std::string::npos;
+    });
+    EXPECT_EQ(said, 1) << wild;
+  }
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 // Forms of the body that carries the teeth: by the direction and the height at which a point lies,
 // not by its tooth. What hardens, clamps, gates and ejectors do.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <utility>

@@ -2,6 +2,7 @@
 #include "trueflank/loop/gear/local/far_values.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -70,15 +71,14 @@ std::vector<std::string> notes_on_far_values(const FlankGeometry& geometry,
                                              const std::vector<float>& row_um) {
   constexpr std::size_t kMostTold = 3;
   // Traces of one flank at one place.
-  std::map<std::pair<std::pair<int, int>, std::pair<int, long long>>, Trace> traces;
+  std::map<std::array<long long, 4>, Trace> traces;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const Observation& row = table.rows[i];
     const bool profile = row.kind == ObservationKind::kProfile;
     if (!(profile || row.kind == ObservationKind::kHelix) || !std::isfinite(row_um[i])) continue;
     const Place& place = table.place(row);
-    traces[{{static_cast<int>(row.kind), row.source},
-            {2 * place.tooth + (place.side > 0 ? 1 : 0),
-             std::llround(1e3 * (profile ? place.z_mm : place.roll_mm))}}]
+    traces[{static_cast<long long>(row.kind), row.source, place.side * place.tooth,
+            std::llround(1e3 * (profile ? place.z_mm : place.roll_mm))}]
         .emplace_back(profile ? place.roll_mm : place.z_mm, i);
   }
   std::vector<float> all;

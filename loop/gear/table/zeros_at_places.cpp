@@ -16,24 +16,14 @@
 namespace trueflank::loop {
 namespace {
 
-/// One trace so far: its mean, and the noise of its values from second differences, which a slope
-/// has no part in.
-struct TraceMean {
-  int values = 0, differences = 0;
-  double sum = 0.0, last = kNaN, before = kNaN, square = 0.0;
-  void add(double um) {
-    ++values;
-    sum += um;
-    if (!std::isnan(before)) {
-      constexpr double kOfThree = 6.0;  // variance of a second difference
-      square += std::pow(um - 2.0 * last + before, 2) / kOfThree;
-      ++differences;
-    }
-    before = last;
-    last = um;
-  }
-  [[nodiscard]] double mean() const { return sum / values; }
-};
+using Trace = std::vector<double>;  // values, in the order of the file
+
+/// What a slope has no part in: second differences, each as loud as one value.
+void add_second_differences(const Trace& trace, std::vector<double>& differences) {
+  const double variance = 6.0;  // of a second difference, in those of a value
+  for (std::size_t i = 2; i < trace.size(); ++i)
+    differences.push_back((trace[i] - 2.0 * trace[i - 1] + trace[i - 2]) / std::sqrt(variance));
+}
 
 using SideAndTooth = std::pair<int, int>;
 
@@ -62,7 +52,7 @@ std::optional<double> zeros_at_places_um(const InspectionData& data, RecordKind 
   constexpr std::size_t kFewestFlanks = 6, kFewestOfTwo = 30;
   constexpr double kOfNoise = 6.0, kOfScatter = 0.35, kRough = 0.7;
   if (data.common_zero) return std::nullopt;
-  std::map<SideAndTooth, std::map<long long, TraceMean>> flanks;
+  std::map<SideAndTooth, std::map<long long, Trace>> flanks;
   std::set<long long> places;
   for (const InspectionRow& row : data.rows) {
     if (row.record != kind) continue;
@@ -70,34 +60,34 @@ std::optional<double> zeros_at_places_um(const InspectionData& data, RecordKind 
     if (!std::isfinite(across) || !std::isfinite(row.deviation_um)) continue;
     const long long place = std::llround(1000.0 * across);
     places.insert(place);
-    flanks[{static_cast<int>(row.flank), row.tooth}][place].add(row.deviation_um);
+    flanks[{static_cast<int>(row.flank), row.tooth}][place].push_back(row.deviation_um);
   }
   std::erase_if(flanks, [&](const auto& flank) { return flank.second.size() != places.size(); });
   const std::size_t n = places.size();
   const bool has_slope = n > 2;
   if (n < 2 || flanks.size() < (has_slope ? kFewestFlanks : kFewestOfTwo)) return std::nullopt;
 
-  // Means of flanks, places in their order; less the mean of each side there.
+  // Middles of traces (a wild value is none), places in their order; less the mean of each side.
   std::map<int, std::vector<double>> of_side;  // at every place
   std::map<int, int> count;
-  double noise_square = 0.0;
-  int differences = 0, values = 0, traces = 0;
-  for (const auto& [flank, at] : flanks) {
+  std::map<SideAndTooth, std::vector<double>> middles;
+  std::vector<double> differences;
+  double values = 0.0;
+  for (auto& [flank, at] : flanks) {
     std::vector<double>& sums = of_side[flank.first];
     sums.resize(n);
     ++count[flank.first];
     std::size_t k = 0;
-    for (const auto& [place, trace] : at) {
-      sums[k++] += trace.mean();
-      noise_square += trace.square;
-      differences += trace.differences;
-      values += trace.values;
-      ++traces;
+    for (auto& [place, trace] : at) {
+      add_second_differences(trace, differences);
+      values += static_cast<double>(trace.size());
+      middles[flank].push_back(median(trace));
+      sums[k++] += middles[flank].back();
     }
   }
-  if (differences == 0) return std::nullopt;
-  const double noise_um =
-      std::sqrt(noise_square / differences / (static_cast<double>(values) / traces));
+  if (differences.empty()) return std::nullopt;
+  const double traces = static_cast<double>(n * flanks.size());
+  const double noise_um = robust_sigma(differences) / std::sqrt(values / traces);
 
   Eigen::MatrixXd own(static_cast<Eigen::Index>(n), has_slope ? 2 : 1);
   {
@@ -117,16 +107,16 @@ std::optional<double> zeros_at_places_um(const InspectionData& data, RecordKind 
     // At one place after the other, from tooth to tooth.
     std::vector<std::vector<double>> rests(n);
     std::vector<int> teeth;
-    for (const auto& [flank, at] : flanks) {
+    for (const auto& [flank, of_flank] : middles) {
       if (flank.first != side) continue;
       Eigen::VectorXd means(static_cast<Eigen::Index>(n));
-      std::size_t k = 0;
-      for (const auto& [place, trace] : at) {
-        means[static_cast<Eigen::Index>(k)] = trace.mean() - sums[k] / count[side];
-        all.push_back(means[static_cast<Eigen::Index>(k++)]);
+      for (std::size_t k = 0; k < n; ++k) {
+        means[static_cast<Eigen::Index>(k)] = of_flank[k] - sums[k] / count[side];
+        all.push_back(means[static_cast<Eigen::Index>(k)]);
       }
       const Eigen::VectorXd rest = means - own * solver.solve(means);
-      for (k = 0; k < n; ++k) rests[k].push_back(rest[static_cast<Eigen::Index>(k)] / kept);
+      for (std::size_t k = 0; k < n; ++k)
+        rests[k].push_back(rest[static_cast<Eigen::Index>(k)] / kept);
       teeth.push_back(flank.second);
     }
     for (std::vector<double>& rest : rests) {
