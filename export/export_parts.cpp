@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <functional>
 #include <mutex>
 #include <optional>
 
@@ -59,6 +60,12 @@ double largest_chord_error_mm(const std::vector<Section>& sections) {
   return largest_mm;
 }
 
+/// One piece of the work, and the pieces before it that must be done first.
+struct Task {
+  std::function<Status()> work;
+  std::vector<std::size_t> needs;
+};
+
 struct Job {
   int part = kAssembly;  ///< index into PartShapes::parts
   FileFormat format = FileFormat::kStl;
@@ -85,8 +92,8 @@ class Exporter {
     if (has(FileFormat::kStep)) make_solids();
     files_.resize(jobs_.size());
     rounding_mm_.resize(jobs_.size());
-    if (errors_.empty()) make_files(has(FileFormat::k3mf));
-    if (!errors_.empty()) return fail_all(std::move(errors_));
+    if (!error_) make_files(has(FileFormat::k3mf));
+    if (error_) return fail_all({std::move(*error_)});
     add_accuracies();
     return std::move(files_);
   }
@@ -119,8 +126,8 @@ class Exporter {
   /// Meshes, what 3MF files hold of them, and files; each as soon as there is what it needs.
   void make_files(bool packed) {
     const auto is_mesh = [](const Job& j) { return io::is_mesh(j.format); };
-    std::vector<QueuedJob> queue;
-    const auto add = [&](std::vector<std::size_t> needs, std::function<bool()> work) {
+    std::vector<Task> queue;
+    const auto add = [&](std::vector<std::size_t> needs, std::function<Status()> work) {
       queue.push_back({std::move(work), std::move(needs)});
       return queue.size() - 1;
     };
@@ -129,7 +136,7 @@ class Exporter {
       meshes_.resize(shapes_.parts.size());
       for (const std::size_t i : parts_largest_first())
         prepared[i] = {add({}, [this, i, tolerance_mm = mesh_tolerance_mm()] {
-          return keep_error(make_mesh(i, tolerance_mm));
+          return make_mesh(i, tolerance_mm);
         })};
     }
     if (packed) {
@@ -139,7 +146,7 @@ class Exporter {
         prepared[i] = {add(prepared[i], [this, i] {
           packed_meshes_[i] = packed_3mf_mesh(meshes_[i].part.mesh);
           known_meshes_[i].packed = packed_meshes_[i].bytes();
-          return true;
+          return Status{};
         })};
     }
     std::vector<std::size_t>
@@ -149,7 +156,7 @@ class Exporter {
         for (std::size_t part = 0; part < prepared.size(); ++part)
           if (jobs_[i].part == kAssembly || jobs_[i].part == static_cast<int>(part))
             needs.insert(needs.end(), prepared[part].begin(), prepared[part].end());
-      return add(std::move(needs), [this, i] { return keep_error(run(i)); });
+      return add(std::move(needs), [this, i] { return run(i); });
     };
     const auto is_packed_whole = [](const Job& j) {
       return j.part == kAssembly && j.format == FileFormat::k3mf;
@@ -161,7 +168,7 @@ class Exporter {
     }
     for (std::size_t i = 0; i < jobs_.size(); ++i)
       if (is_packed_whole(jobs_[i])) add_file(i, packed_parts);
-    run_jobs(queue);
+    do_all(queue);
   }
 
   Status make_mesh(std::size_t i, double tolerance_mm) {
@@ -217,11 +224,19 @@ class Exporter {
     return order;
   }
 
-  bool keep_error(Status status) {
-    if (status) return true;
-    const std::lock_guard lock(mutex_);
-    errors_.push_back(std::move(status.error()));
-    return false;
+  /// Does the jobs. Of those that fail the first one in the queue is told: the same one on any
+  /// number of processors.
+  void do_all(const std::vector<Task>& tasks) {
+    std::vector<std::optional<Error>> errors(tasks.size());
+    std::vector<QueuedJob> queue;
+    for (std::size_t i = 0; i < tasks.size(); ++i)
+      queue.push_back({[&errors, &tasks, i] {
+                         Status status = tasks[i].work();
+                         if (!status) errors[i] = std::move(status.error());
+                         return status.has_value();
+                       },
+                       tasks[i].needs});
+    if (const auto failed = run_jobs(queue)) error_ = std::move(errors[*failed]);
   }
 
   /// The tolerance holds for the files: what rounding to float, or to text, may add is set aside.
@@ -240,10 +255,10 @@ class Exporter {
   /// Solids serve the files of the parts and that of the assembly.
   void make_solids() {
     solids_.resize(shapes_.parts.size());
-    std::vector<QueuedJob> queue;
+    std::vector<Task> queue;
     for (const std::size_t i : parts_largest_first())
-      queue.push_back({[this, i] { return keep_error(make_solid(i)); }, {}});
-    run_jobs(queue);
+      queue.push_back({[this, i] { return make_solid(i); }, {}});
+    do_all(queue);
   }
   Status make_solid(std::size_t i) {
     const PartShape& shape = shapes_.parts[i];
@@ -400,7 +415,7 @@ class Exporter {
   std::vector<double> rounding_mm_;  ///< farthest that a corner moved on its way through a file
   std::vector<ReportedFile> files_;
   std::mutex mutex_;
-  Errors errors_;
+  std::optional<Error> error_;
 };
 
 }  // namespace

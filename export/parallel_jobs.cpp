@@ -17,7 +17,7 @@ namespace {
 class Queue {
  public:
   explicit Queue(const std::vector<QueuedJob>& jobs)
-      : jobs_(jobs), state_(jobs.size(), State::kWaiting), left_(jobs.size()) {
+      : jobs_(jobs), state_(jobs.size(), State::kWaiting), end_(jobs.size()) {
     for (std::size_t i = 0; i < jobs.size(); ++i)
       for (const std::size_t need : jobs[i].needs) TRUEFLANK_EXPECTS(need < i);
   }
@@ -25,21 +25,26 @@ class Queue {
   /// What each processor does.
   void work() {
     while (const auto job = next()) {
-      bool go_on = false;
+      bool done = false;
+      std::exception_ptr thrown;
       try {
-        go_on = jobs_[*job].work();
+        done = jobs_[*job].work();
       } catch (...) {
-        const std::lock_guard lock(mutex_);
-        if (!thrown_) thrown_ = std::current_exception();
+        thrown = std::current_exception();
       }
       const std::lock_guard lock(mutex_);
       state_[*job] = State::kDone;
-      if (!go_on) left_ = 0;
+      if (!done && *job < end_) {
+        end_ = *job;
+        thrown_ = thrown;
+      }
       changed_.notify_all();
     }
   }
-  void throw_what_was_thrown() const {
+  /// Throws on what the first job that failed threw.
+  [[nodiscard]] std::optional<std::size_t> first_failed() const {
     if (thrown_) std::rethrow_exception(thrown_);
+    return end_ < jobs_.size() ? std::optional(end_) : std::nullopt;
   }
 
  private:
@@ -54,37 +59,39 @@ class Queue {
   /// Waits for a job to be ready; nothing where none is left.
   std::optional<std::size_t> next() {
     std::unique_lock lock(mutex_);
-    while (left_ > 0) {
-      for (std::size_t i = 0; i < jobs_.size(); ++i) {
-        if (!ready(i)) continue;
-        state_[i] = State::kBegun;
-        if (--left_ == 0) changed_.notify_all();
-        return i;
+    while (true) {
+      bool all_begun = true;
+      for (std::size_t i = 0; i < end_; ++i) {
+        if (ready(i)) {
+          state_[i] = State::kBegun;
+          return i;
+        }
+        all_begun = all_begun && state_[i] != State::kWaiting;
       }
+      if (all_begun) return std::nullopt;
       changed_.wait(lock);
     }
-    return std::nullopt;
   }
 
   const std::vector<QueuedJob>& jobs_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<State> state_;
-  std::size_t left_;  ///< not yet begun
+  std::size_t end_;  ///< jobs from here on do not begin: the first that failed, or their number
   std::exception_ptr thrown_;
 };
 
 }  // namespace
 
-void run_jobs(const std::vector<QueuedJob>& jobs) {
+std::optional<std::size_t> run_jobs(const std::vector<QueuedJob>& jobs) {
   Queue queue(jobs);
   const std::size_t processors = trueflank::processors();
-  if (jobs.empty()) return;
+  if (jobs.empty()) return std::nullopt;
   {
     const Help others(std::min(jobs.size(), processors) - 1, [&queue] { queue.work(); });
     queue.work();
   }
-  queue.throw_what_was_thrown();
+  return queue.first_failed();
 }
 
 }  // namespace trueflank::io

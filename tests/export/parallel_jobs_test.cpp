@@ -65,6 +65,32 @@ TEST(ParallelJobs, AfterARefusalOrAnExceptionNoneBegins) {
   run_jobs({});
 }
 
+TEST(ParallelJobs, TheFirstInTheQueueThatFailsIsToldWhicheverEndsFirst) {
+  for (const bool slow : {false, true}) {
+    std::atomic<bool> seventh_failed{false};
+    std::atomic<int> done{0};
+    std::vector<QueuedJob> jobs(12, {[&] { return ++done, true; }, {}});
+    // the fifth needs the fourth, which ends after the seventh has failed
+    jobs[3] = {[&] {
+                 for (int i = 0; i < 2000 && slow && !seventh_failed; ++i)
+                   std::this_thread::sleep_for(1ms);
+                 return true;
+               },
+               {}};
+    jobs[4] = {[] { return false; }, {3}};
+    jobs[6] = {[&] { return seventh_failed = true, false; }, {}};
+    EXPECT_EQ(run_jobs(jobs), 4U);
+    EXPECT_GE(done, 3);  // all before it
+    if (std::thread::hardware_concurrency() > 1 && slow) {
+      EXPECT_TRUE(seventh_failed);
+    }
+    jobs[4] = {[]() -> bool { throw std::runtime_error("the fifth"); }, {3}};
+    jobs[5] = {[]() -> bool { throw std::logic_error("the sixth"); }, {}};
+    EXPECT_THROW(run_jobs(jobs), std::runtime_error);
+  }
+  EXPECT_EQ(run_jobs({{[] { return true; }, {}}}), std::nullopt);
+}
+
 TEST(ParallelJobs, MayNeedEarlierJobsOnly) {
   EXPECT_THROW(run_jobs({{[] { return true; }, {0}}}), ContractViolation);
 }
