@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <random>
 #include <string>
+#include <vector>
 
 #include "tests/loop/made_gears.h"
 
@@ -139,6 +141,61 @@ TEST(KinkOfTheAxis, LeavesATiltALayerShiftAndABowWhatTheyAre) {
       EXPECT_EQ(result.effects.size(), 1U) << list(result);
       EXPECT_TRUE(tells(result, words)) << list(result);
     }
+}
+
+// Beside an eccentricity the sections of helical teeth were taken to lean as a body, and a pitch
+// wave made up for it.
+TEST(TiltOfHelicalTeeth, LeavesNothingForAPitchWave) {
+  std::mt19937_64 random(569);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * uniform(random);
+  };
+  for (unsigned draw = 1; draw <= 10; ++draw) {
+    const MadeGear gear =
+        helical(20 + static_cast<int>(12.0 * uniform(random)), between(12.0, 25.0));
+    const double noise_um = 0.5, face_mm = gear.face_mm, tilt_um = between(4.0, 9.0),
+                 off_um = between(2.0, 5.0), crown_um = between(1.5, 5.0),
+                 lean_um = between(2.0, 6.0);
+    const auto leans = moved([=](double z) { return tilt_um * (z / face_mm - 0.5); },
+                             between(0.0, 360.0)),
+               off = moved([=](double) { return off_um; }, between(0.0, 360.0));
+    const auto both = grown(
+        [=](auto&, const FlankSpot& s, auto&) { return lean_um * s.u - crown_um * s.v * s.v; });
+    const auto result =
+        close(gear, inspection_of(gear, {leans, off, both}, of_all_teeth(noise_um, draw)));
+    SCOPED_TRACE(list(result));
+    EXPECT_EQ(result.effects.size(), 4U);
+    expect_size(result, "axis_tilt", "slope_um_per_mm", tilt_um / face_mm,
+                0.05 * tilt_um / face_mm);
+    expect_size(result, "eccentricity", "amplitude_um", off_um, 0.1 * off_um);
+  }
+}
+
+// A step over the middle of the face took the tips out of the data; then a scale, by which they
+// stand a quarter of a millimetre off, was told for teeth that are too thick.
+TEST(LayerShift, LeavesTheTipsTheirSay) {
+  const MadeGear gear = spur(16);
+  for (unsigned draw = 1; draw <= 6; ++draw) {
+    const double at_mm = (0.33 + 0.06 * draw) * gear.face_mm, shift_um = 90.0, thick_um = 40.0;
+    const auto shift = moved([=](double z) { return z > at_mm ? shift_um : 0.0; }, 60.0 * draw);
+    const auto thick = grown([=](auto&, auto&, auto&) { return thick_um; });
+    const auto leans = grown([](auto&, const FlankSpot& s, auto&) { return 20.0 * s.u; });
+    loop::ScanData scan = scan_of(gear, {shift, thick, leans}, scanned(6000, 6.0, draw)), tips;
+    add_tips(gear, 0.0, tips);
+    for (Vec3& p : tips.points_mm)
+      if (p[2] > at_mm) {
+        p[0] += 1e-3 * shift_um * std::cos(60.0 * draw * M_PI / 180.0);
+        p[1] += 1e-3 * shift_um * std::sin(60.0 * draw * M_PI / 180.0);
+      }
+    scan.points_mm.insert(scan.points_mm.end(), tips.points_mm.begin(), tips.points_mm.end());
+    const auto result = close(gear, scan, true);
+    SCOPED_TRACE(list(result));
+    EXPECT_EQ(find(result, "scale"), nullptr);
+    EXPECT_EQ(result.not_observable, std::vector<std::string>{});
+    expect_size(result, "tooth_thickness", "amount_um",
+                2.0 * thick_um / std::cos(gear.pressure_angle_rad), 4.0);
+  }
 }
 
 TEST(FootOfOneSide, IsOneFormAndNoFoot) {

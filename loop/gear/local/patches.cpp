@@ -59,6 +59,7 @@ class PatchMaker {
  private:
   static constexpr int kProfileParts = 12, kTraceParts = 40;
   static constexpr int kFinerParts = 8;  // of the lowest millimetre
+  static constexpr double kOfCircles = 0.4;  // of the face
   using Key = std::array<int, 7>;        // kind, source, zero, tooth, side, profile part, face part
   struct HashOfKey {
     std::size_t operator()(const Key& key) const {
@@ -91,6 +92,8 @@ class PatchMaker {
     } else if (row.kind == ObservationKind::kScanBore) {
       key[3] = static_cast<int>(wrapped_rad(place.polar_rad) / kTwoPi * 16) + 1;
       key[6] = part_of(geometry_.face_coordinate(place.z_mm), 4);
+    } else {  // tips and roots: a step over the face leaves some of them whole
+      key[6] = part_of(geometry_.face_coordinate(place.z_mm) / kOfCircles, 4);
     }
     return key;
   }
@@ -152,7 +155,7 @@ class PatchMaker {
         const bool circle =
             row.kind == ObservationKind::kScanTip || row.kind == ObservationKind::kScanRoot;
         // Tip and root serve as sizes: taken where face effects are small.
-        if (circle && (z < 0.3 * b || z > 0.7 * b)) continue;
+        if (circle && std::abs(z - 0.5 * b) > 0.5 * kOfCircles * b) continue;
         const Key key = key_of(row, static_cast<int>(i));
         if (row.kind == ObservationKind::kScanFlank) {
           result_.patch_of_row[i] = static_cast<int>(place_in_list(key));

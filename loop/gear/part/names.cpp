@@ -108,6 +108,36 @@ void tell_names_in_two_parts(PartModel& model) {
         break;
 }
 
+void drop_what_mends_another_way(PartModel& model) {
+  constexpr double kNothing = 9.0;  // chi-square
+  const auto is_wave = [](const Effect& e) {
+    return e.family->named && !e.family->local && e.order() > 0.0;
+  };
+  const auto mends = [&](std::size_t lean, std::size_t wave) {
+    for (const EffectShape& way : model.effects[lean].family->shapes(model.geometry)) {
+      std::vector<Effect> with = model.effects;
+      with[lean].shape = way;
+      with.erase(with.begin() + static_cast<std::ptrdiff_t>(wave));
+      if (fit_of(model, with)->residual_square() >
+          fit_of(model, model.effects)->residual_square() + kNothing)
+        continue;
+      model.effects[lean].shape = way;
+      std::copy_n(model.effects.begin(), model.options.given.size(), model.options.given.begin());
+      remove_effect(model, wave);
+      return true;
+    }
+    return false;
+  };
+  for (std::size_t lean = first_told_here(model); lean < model.effects.size(); ++lean) {
+    if (!model.effects[lean].family->is_one_of_its_shapes) continue;
+    for (std::size_t wave = first_told_here(model); wave < model.effects.size(); ++wave)
+      if (wave != lean && is_wave(model.effects[wave]) && mends(lean, wave)) {
+        lean -= wave < lean ? 1 : 0;
+        wave = model.effects.size();
+      }
+  }
+}
+
 void tell_the_usual_of_equals(PartModel& model) {
   constexpr double kEqual = 1.0;  // chi-square
   const auto is_usual_in_place_of = [&](int group, std::size_t e) {

@@ -12,6 +12,9 @@ void tell_one_flank_as_two_names_of_all(PartModel& model);
 /// Two forms without a name, each of teeth that the other leaves alone, and together as good as a
 /// name: they are that name and one of them, the smaller, if that is anything beside it.
 void tell_names_in_two_parts(PartModel& model);
+/// What leans moves in one of two ways (its sections, or as a body), and the choice may settle the
+/// wrong one first: the wave that makes up for it is nothing beside the right one.
+void drop_what_mends_another_way(PartModel& model);
 /// Of names that say the same beside the others, the usual one is told: a scale and a lean of
 /// traces may be a helix error and another lean.
 void tell_the_usual_of_equals(PartModel& model);

@@ -89,6 +89,7 @@ void explain_part(PartModel& model) {
   look_at_sizes(model);
   drop_impossible(model);
   drop_what_mends_a_shape(model);
+  drop_what_mends_another_way(model);
   if (scan_for_more) drop_doubtful_names(model);
   join_flanks(model);
   if (scan_for_more) tell_parts_of_a_form(model);

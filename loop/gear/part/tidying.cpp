@@ -451,21 +451,22 @@ void prefer_one_name_to_two(PartModel& model) {
 }
 
 void drop_names_that_may_be_nothing(PartModel& model) {
+  constexpr double kChance = 0.05;
   for (bool again = true; again;) {
     again = false;
     const auto fit = fit_of(model, model.effects);
-    double least = 1.0;  // of the half width
+    double largest = kChance;
     std::size_t weakest = 0;
     for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
-      if (!model.effects[e].family->named || model.effects[e].family->local ||
-          model.effects[e].columns() != 1)
-        continue;
-      const int column = fit->first_column(static_cast<int>(e));
-      const double half =
-          student_95(fit->degrees(column)) * std::sqrt(fit->covariance()(column, column));
-      const double ratio = std::abs(fit->coefficients()[column]) / half;
-      if (!(ratio < least)) continue;
-      least = ratio;
+      const int first = fit->first_column(static_cast<int>(e)),
+                columns = model.effects[e].columns();
+      if (!model.effects[e].family->named || model.effects[e].family->local) continue;
+      const Eigen::VectorXd b = fit->coefficients().segment(first, columns);
+      const double square =
+          b.dot(symmetric_solution(fit->covariance().block(first, first, columns, columns), b));
+      const double p = f_tail(square / columns, columns, fit->degrees(first));
+      if (!(p > largest)) continue;
+      largest = p;
       weakest = e;
       again = true;
     }
