@@ -187,10 +187,29 @@ double variance_around(const std::map<int, double>& by_tooth) {
   return median(squares) / kMedianOfSquare;
 }
 
+/// One value a tooth, where the two flanks of each tooth or gap stand out alike or opposite: the
+/// half of what else they differ by.
+double variance_beside(const std::array<std::map<int, double>, 2>& sides, const OwnPlaces& places,
+                       int teeth) {
+  std::vector<double> rest;
+  for (const auto& [tooth, last] : sides[1]) {
+    const int number = places.of_gaps ? tooth % teeth + 1 : tooth;
+    if (const auto first = sides[0].find(number); first != sides[0].end())
+      rest.push_back(first->second + (places.opposite ? last : -last));
+  }
+  if (rest.size() < 3) return 0.0;
+  const auto n = static_cast<double>(rest.size());
+  double mean = 0.0, square = 0.0;
+  for (const double um : rest) mean += um / n;
+  for (const double um : rest) square += (um - mean) * (um - mean);
+  return 0.5 * square / (n - 1.0);
+}
+
 struct Gathered {
   std::map<std::pair<int, int>, Whole> wholes;  ///< traces, of side and trace or tooth
   std::array<std::map<int, double>, 2> around;
   double squares = 0.0, count = 0.0, held_out = 0.0;
+  int teeth = 0;  ///< of the gear
 
   /// The same variance of all values.
   [[nodiscard]] Variance even(double variance) const { return {variance, variance, held_out}; }
@@ -236,7 +255,9 @@ Variance variance_of_scan(const std::array<ScannedSide, 2>& sides, const Gathere
 Variance variance_of(ObservationKind kind, Gathered& data, const WhatIsLeft& left) {
   const double plain = data.squares / data.count;
   if (kind == ObservationKind::kIndex || kind == ObservationKind::kRadial) {
-    const double around = 0.5 * (variance_around(data.around[0]) + variance_around(data.around[1]));
+    const double around =
+        left.places.any ? variance_beside(data.around, left.places, data.teeth)
+                        : 0.5 * (variance_around(data.around[0]) + variance_around(data.around[1]));
     return data.even(left.nothing || !(around > 0.0) ? plain : std::min(plain, around));
   }
   std::array<std::vector<Whole*>, 2> of_flank;
@@ -311,6 +332,7 @@ std::map<ObservationKind, KindError> errors_of_kinds(const FlankGeometry& geomet
         patch.kind != ObservationKind::kScanBore && patch.kind != ObservationKind::kSize)
       class_of[p] = &classes[{patch.source, patch.kind}];
   }
+  for (auto& [key, data] : classes) data.teeth = geometry.teeth();
   const ReadingSteps steps(table, row_um);
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const int patch = patches.patch_of_row[i];

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "trueflank/loop/gear/local/patches.h"
+#include "trueflank/loop/gear/remainder.h"
 
 namespace trueflank::loop {
 
@@ -14,6 +15,7 @@ struct WhatIsLeft {
   /// Flanks have courses of their own, over the profile or over the face: any in scans, a line or a
   /// bow in traces.
   bool own_profiles = false, own_leads = false;
+  OwnPlaces places = {};  ///< in an index: both flanks tell them
 };
 
 /// Sums over the values of one kind of record [um^2]: residuals, and the random error among them.
@@ -36,11 +38,12 @@ struct RandomError {
 /// Of the values that errors are made of, all kinds together, from the data's own neighbourhood.
 /// Traces: their spectrum, at every wavelength the median over the teeth and the neighbouring
 /// wavelengths, what the teeth have in common taken off: a line, a form that repeats or one odd
-/// tooth is no noise, an error that hangs together is. Scans: the median flank, less what all flanks
-/// have in common, a low form of its own and the courses of its own that `left` knows of. In both each
-/// tooth counts by how loud its own short waves are (discovery/loudness.h). One value a tooth: second differences around the gear.
-/// `row_um`: residuals of the table's rows.
-/// Accuracy: in blind runs (docs/loop.md) the middle 90 % lie at 0.94 to 1.17 of the true one.
+/// tooth is no noise, an error that hangs together is. Scans: the median flank, less what all
+/// flanks have in common, a low form of its own and the courses of its own that `left` knows of. In
+/// both each tooth counts by how loud its own short waves are (discovery/loudness.h). One value a
+/// tooth: second differences around the gear, or, where teeth or gaps have places of their own, how
+/// their two flanks differ. `row_um`: residuals of the table's rows. Accuracy: in blind runs
+/// (docs/loop.md) the middle 90 % lie at 0.94 to 1.17 of the true one.
 [[nodiscard]] RandomError random_error(const FlankGeometry& geometry, const Observations& table,
                                        const Patches& patches, const std::vector<float>& row_um,
                                        const WhatIsLeft& left);

@@ -11,6 +11,11 @@ namespace trueflank::loop {
 
 /// Every flank of a scan has a course of its own, alike all along the other direction.
 enum class OwnCourse { kNone, kProfile, kLead };
+/// Every tooth, or every gap, has a place of its own that both its flanks share.
+struct OwnPlaces {
+  bool any = false, of_gaps = false;
+  bool opposite = false;  ///< as where it stands aside: one flank stands out as the other lies back
+};
 
 /// One structure in what a model leaves.
 struct RemainderFinding {
@@ -22,6 +27,7 @@ struct RemainderFinding {
       effect;  ///< the form as columns; empty: no form that comes back (phases of their own)
   bool local = false;  ///< stands on one tooth
   OwnCourse own = OwnCourse::kNone;
+  OwnPlaces places = {};     ///< in single values
   bool beside_line = false;  ///< along the flanks, sought beside a slope
 };
 

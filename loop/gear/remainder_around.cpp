@@ -73,49 +73,74 @@ class AroundSearch {
     }
   }
 
-  /// Heights in an index, slopes and bows of traces that differ from tooth to tooth, alike or
-  /// opposite on both flanks of each: noise knows of one value or trace only, however it hangs
-  /// together within it.
+  /// What both flanks of each tooth share, or both of each gap: the last flank of a tooth and the
+  /// first of the next, counter-clockwise.
+  struct Members {
+    bool gaps = false;
+    std::vector<int> teeth;  ///< of gaps the tooth before each
+    Eigen::VectorXd first,
+        second;  ///< values of the flank that is met first, counter-clockwise, and of the other
+    double p_value = 1.0;
+
+    [[nodiscard]] bool opposite() const {
+      return (first.array() - first.mean())
+                 .matrix()
+                 .dot((second.array() - second.mean()).matrix()) < 0.0;
+    }
+    /// Above 0: they stand out, or, where opposite, counter-clockwise.
+    [[nodiscard]] Eigen::VectorXd common() const {
+      const double of_first = opposite() && !gaps ? -1.0 : 1.0,
+                   of_second = opposite() && gaps ? -1.0 : 1.0;
+      return 0.5 * (of_first * first + of_second * second);
+    }
+  };
+
+  /// Heights in an index, slopes and bows of traces that differ from tooth to tooth, or from gap to
+  /// gap, alike or opposite on both flanks of each: noise knows of one value or trace only, however
+  /// it hangs together within it.
   void look_at_flanks_of_teeth() {
     constexpr int kForms = 2;  // of a trace's own direction
-    const auto looks = static_cast<double>(kForms * moments_.size());
+    constexpr double kClearly = 0.01;  // of the chance: what goes slowly around is alike in both
+    const auto looks = static_cast<double>(2 * kForms * moments_.size());
     for (const auto& [key, of_teeth] : moments_)
       for (const int form : own_forms(key.first)) {
-        std::vector<int> teeth;
-        const auto [right, left] = values_of_both_flanks(of_teeth, form, teeth);
-        const double p_value = std::min(1.0, looks * chance_of_both(of_teeth, teeth, right, left));
+        Members members = members_of(of_teeth, form, false);
+        if (Members gaps = members_of(of_teeth, form, true);
+            gaps.p_value < kClearly * members.p_value)
+          members = std::move(gaps);
+        const double p_value = std::min(1.0, looks * members.p_value);
         if (p_value > kRemainderLevel) continue;
-        const bool opposite =
-            (right.array() - right.mean()).matrix().dot((left.array() - left.mean()).matrix()) <
-            0.0;
-        const Eigen::VectorXd common = 0.5 * (left + (opposite ? -1.0 : 1.0) * right);
-        if (!add_slow_wave(common, teeth, form, opposite, looks)) {
+        const Eigen::VectorXd common = members.common();
+        if (members.gaps ||
+            !add_slow_wave(common, members.teeth, form, members.opposite(), looks)) {
           const double spread = std::sqrt((common.array() - common.mean()).square().mean());
-          add_text(p_value, words_of_own(form, key.first, opposite, spread),
+          add_text(p_value,
+                   words_of_own(form, key.first, members, spread) +
+                       (form == 0 ? words_of_two_kinds(members, common) : ""),
                    (form == 1 || form == 2 ? 2.0 : 1.0) * spread);
         }
         found_.back().own = own_course(form);
+        if (form == 0) found_.back().places = {true, members.gaps, members.opposite()};
       }
   }
 
   /// A tooth that is measured worse is far out on both flanks, and would agree with itself: its
   /// values count for as much less.
-  static double chance_of_both(const std::vector<ToothMoments>& of_teeth,
-                               const std::vector<int>& teeth, const Eigen::VectorXd& right,
-                               const Eigen::VectorXd& left) {
-    if (teeth.empty()) return 1.0;
-    std::array<Eigen::VectorXd, 2> even{right, left};
+  static double chance_of_both(const std::vector<ToothMoments>& of_teeth, const Members& members) {
+    if (members.teeth.empty()) return 1.0;
+    std::array<Eigen::VectorXd, 2> even{members.first, members.second};
     bool any = false;
     for (const std::size_t side : {0U, 1U}) {
       const double mean = even[side].mean();
-      for (std::size_t i = 0; i < teeth.size(); ++i) {
-        const double loud = of_teeth[ToothMoments::at(static_cast<int>(side), teeth[i])].loud;
+      for (std::size_t i = 0; i < members.teeth.size(); ++i) {
+        const double loud = flank_of(of_teeth, members.teeth[i], side, members.gaps).loud;
         any = any || loud > 1.0;
         double& value = even[side][static_cast<Eigen::Index>(i)];
         value = mean + (value - mean) / loud;
       }
     }
-    return any ? chance_of_agreement(even[0], even[1]) : chance_of_agreement(right, left);
+    return any ? chance_of_agreement(even[0], even[1])
+               : chance_of_agreement(members.first, members.second);
   }
 
   /// Slopes and bows that both flanks of every tooth agree on, and that one slow wave around the
@@ -169,36 +194,97 @@ class AroundSearch {
     return true;
   }
 
-  static std::string words_of_own(int form, MomentsOf what, bool opposite, double spread_um) {
-    const char* on = opposite ? "opposite on" : "alike on";
+  static std::string words_of_own(int form, MomentsOf what, const Members& members,
+                                  double spread_um) {
+    const char* on = members.opposite() ? "opposite on" : "alike on";
+    const std::string of = members.gaps ? "gap between two teeth" : "tooth";
     if (form == 0)
       return printed(
-          "a place of its own of every tooth, %s both its flanks, with a standard "
+          "a place of its own of every %s, %s both its flanks, with a standard "
           "deviation of %.3g um",
-          on, spread_um);
+          of.c_str(), on, spread_um);
     return printed(
-        "a %s over the %s of its own on every tooth, %s both its flanks, with a "
+        "a %s over the %s of its own on every %s, %s both its flanks, with a "
         "standard deviation of %.3g um",
-        form < 3 ? "slope" : "bow", what == MomentsOf::kProfiles ? "profile" : "face", on,
-        (form < 3 ? 2.0 : 1.0) * spread_um);
+        form < 3 ? "slope" : "bow", what == MomentsOf::kProfiles ? "profile" : "face", of.c_str(),
+        on, (form < 3 ? 2.0 : 1.0) * spread_um);
   }
 
-  /// A form of the teeth of which both flanks were measured, and which they are.
-  static std::array<Eigen::VectorXd, 2> values_of_both_flanks(
-      const std::vector<ToothMoments>& of_teeth, int form, std::vector<int>& teeth) {
+  /// Where they stand in two places that are far apart beside how each scatters: which, and how
+  /// far.
+  static std::string words_of_two_kinds(const Members& members, const Eigen::VectorXd& common) {
+    constexpr double kApart = 6.0;  // scatters; 3.5 of values that are spread evenly
+    constexpr std::size_t kFewest = 3;
+    std::vector<std::pair<double, int>> sorted;
+    for (std::size_t i = 0; i < members.teeth.size(); ++i)
+      sorted.emplace_back(common[static_cast<Eigen::Index>(i)], members.teeth[i]);
+    std::sort(sorted.begin(), sorted.end());
+    const std::size_t n = sorted.size();
+    std::size_t split = 0;
+    double least = 0.0, apart_um = 0.0;
+    for (std::size_t k = kFewest; k + kFewest <= n; ++k) {
+      std::array<double, 2> mean{}, square{};
+      for (std::size_t i = 0; i < n; ++i)
+        mean[i < k ? 0 : 1] += sorted[i].first / static_cast<double>(i < k ? k : n - k);
+      for (std::size_t i = 0; i < n; ++i)
+        square[i < k ? 0 : 1] += std::pow(sorted[i].first - mean[i < k ? 0 : 1], 2);
+      const double within = square[0] + square[1];
+      if (split > 0 && within >= least) continue;
+      split = k;
+      least = within;
+      apart_um = mean[1] - mean[0];
+    }
+    if (split == 0 || apart_um < kApart * std::sqrt(least / static_cast<double>(n - 2))) return {};
+    // those that are fewer are named
+    const bool upper = n - split <= split;
+    std::vector<int> teeth;
+    for (std::size_t i = upper ? split : 0; i < (upper ? n : split); ++i)
+      teeth.push_back(sorted[i].second);
+    std::sort(teeth.begin(), teeth.end());
+    std::string text = members.gaps ? "; there are two kinds: the gaps that follow on teeth"
+                                    : "; there are two kinds: teeth";
+    for (std::size_t i = 0; i < teeth.size(); ++i)
+      text += (i == 0 ? " " : i + 1 == teeth.size() ? " and " : ", ") + std::to_string(teeth[i]);
+    const char* how = !members.opposite() && members.gaps
+                          ? (upper ? "are narrower than the others, by %.3g um on each flank"
+                                   : "are wider than the others, by %.3g um on each flank")
+                      : !members.opposite()
+                          ? (upper ? "are thicker than the others, by %.3g um on each flank"
+                                   : "are thinner than the others, by %.3g um on each flank")
+                          : (upper ? "stand %.3g um counter-clockwise of the others"
+                                   : "stand %.3g um clockwise of the others");
+    return text + " " + printed(how, apart_um);
+  }
+
+  /// Of a tooth or gap the flank that is met first (0) or last, counter-clockwise.
+  static const ToothMoments& flank_of(const std::vector<ToothMoments>& of_teeth, int tooth,
+                                      std::size_t which, bool gap) {
+    const auto teeth = static_cast<int>(of_teeth.size()) / 2 - 1;
+    if (!gap) return of_teeth[ToothMoments::at(static_cast<int>(which), tooth)];
+    return which == 0 ? of_teeth[ToothMoments::at(1, tooth)]
+                      : of_teeth[ToothMoments::at(0, tooth % teeth + 1)];
+  }
+  /// A form of the teeth or gaps of which both flanks were measured.
+  static Members members_of(const std::vector<ToothMoments>& of_teeth, int form, bool gaps) {
     const auto k = static_cast<std::size_t>(form);
     std::array<std::vector<double>, 2> values;
-    for (std::size_t at = 0; at + 1 < of_teeth.size(); at += 2) {
-      if (!(of_teeth[at].square[k] > 0.0) || !(of_teeth[at + 1].square[k] > 0.0)) continue;
-      teeth.push_back(static_cast<int>(at / 2));
-      for (const std::size_t side : {0, 1})
-        values[side].push_back(of_teeth[at + side].sum[k] / of_teeth[at + side].square[k]);
+    Members members{.gaps = gaps, .teeth = {}, .first = {}, .second = {}};
+    for (int tooth = 1; tooth < static_cast<int>(of_teeth.size()) / 2; ++tooth) {
+      const ToothMoments &first = flank_of(of_teeth, tooth, 0, gaps),
+                         &second = flank_of(of_teeth, tooth, 1, gaps);
+      if (!(first.square[k] > 0.0) || !(second.square[k] > 0.0)) continue;
+      members.teeth.push_back(tooth);
+      values[0].push_back(first.sum[k] / first.square[k]);
+      values[1].push_back(second.sum[k] / second.square[k]);
     }
     const auto vector = [](const std::vector<double>& of) {
       return Eigen::VectorXd(
           Eigen::Map<const Eigen::VectorXd>(of.data(), static_cast<Eigen::Index>(of.size())));
     };
-    return {vector(values[0]), vector(values[1])};
+    members.first = vector(values[0]);
+    members.second = vector(values[1]);
+    members.p_value = chance_of_both(of_teeth, members);
+    return members;
   }
 
   /// One form of all teeth: a column of the ring.

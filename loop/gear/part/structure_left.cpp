@@ -29,6 +29,7 @@ WhatIsLeft what_is_left(const PartModel& model) {
   for (const RemainderFinding& finding : model.remainder) {
     left.own_profiles = left.own_profiles || finding.own == OwnCourse::kProfile;
     left.own_leads = left.own_leads || finding.own == OwnCourse::kLead;
+    if (finding.places.any) left.places = finding.places;
   }
   return left;
 }
