@@ -135,6 +135,39 @@ TEST(BodyForms, DentsOfJawsAreOneForm) {
   }
 }
 
+// They were ramps over the face, a third too large, and of a ring the words had the wrong sign.
+TEST(BodyForms, DentsOverAPartOfTheFaceEndAtAnEdge) {
+  for (unsigned seed = 1; seed <= 2; ++seed) {
+    auto random = random_of(seed + 40);
+    const bool of_a_ring = seed % 2 == 0;
+    const int teeth = static_cast<int>(between(random, 36.0, 48.0));
+    const MadeGear gear = of_a_ring ? ring(teeth) : spur(teeth);
+    const bool upper = between(random, 0.0, 1.0) < 0.5;
+    const double um = between(random, 25.0, 40.0), at_deg = between(random, 0.0, 120.0),
+                 half_deg = between(random, 12.0, 15.0), edge = between(random, -0.2, 0.3);
+    const auto made = grown([&](const MadeGear& g, const FlankSpot& s, const Vec3& p) {
+      const double off = std::remainder(std::atan2(p[1], p[0]) - radians(at_deg), 2.0 * M_PI / 3) /
+                         radians(half_deg);
+      return (upper ? s.v > edge : s.v < edge) ? outwards(g, s, p, -um * std::exp(-off * off))
+                                               : 0.0;
+    });
+    const auto result = measured(gear, made, 1.0, 2 * seed);
+    SCOPED_TRACE(list(result));
+    EXPECT_TRUE(tells(
+        result, of_a_ring
+                    ? "3 places evenly spaced around the gear where the ring is pushed inwards"
+                    : "3 hollows of the body evenly spaced"));
+    EXPECT_TRUE(tells(result, of_a_ring ? "there the teeth stand out on both"
+                                        : "there the teeth lie back on both"));
+    EXPECT_TRUE(tells(result, upper ? "above a height of" : "below a height of"));
+    const auto terms = terms_of(result);
+    ASSERT_EQ(terms.size(), 1U);
+    EXPECT_NEAR(terms[0]->amplitude(), um, 0.08 * um);
+    EXPECT_NEAR(number_of(*terms[0], "face_mm"), 0.5 * (1.0 + edge) * gear.face_mm,
+                0.03 * gear.face_mm);
+  }
+}
+
 // (on teeth of one in so many, and on others)
 TEST(BodyForms, ThreePinsAtAnEndAreThreePlaces) {
   const MadeGear gear = spur(21);

@@ -190,13 +190,24 @@ EffectFamily unnamed_body_place() {
     const int sign = told.sign();
     const double apart_deg = 360.0 / shape[0],
                  at_deg = std::fmod(std::fmod(shape[2], apart_deg) + apart_deg, apart_deg);
-    std::string text = shape[0] == 1.0 ? a_swelling(sign) + " of the body"
-                                       : printed("%.0f ", shape[0]) +
-                                             (sign > 0   ? "swellings"
-                                              : sign < 0 ? "hollows"
-                                                         : "swellings or hollows") +
-                                             " of the body evenly spaced around the gear";
-    text += std::string(shape[0] == 1.0 ? "" : ", one") + printed(" towards %.0f deg", at_deg) +
+    // A ring that is pushed outwards has flanks that lie back.
+    const bool of_a_ring = shape[1] != 0.0 && told.geometry.sense() < 0.0;
+    const bool one = shape[0] == 1.0;
+    std::string text;
+    if (of_a_ring)
+      text = (one ? "a place" : printed("%.0f places evenly spaced around the gear", shape[0])) +
+             std::string(" where the ring is pushed ") +
+             (sign == 0  ? "inwards or outwards"
+              : sign > 0 ? "outwards"
+                         : "inwards");
+    else
+      text = one ? a_swelling(sign) + " of the body"
+                 : printed("%.0f ", shape[0]) +
+                       (sign > 0   ? "swellings"
+                        : sign < 0 ? "hollows"
+                                   : "swellings or hollows") +
+                       " of the body evenly spaced around the gear";
+    text += std::string(one ? "" : ", one") + printed(" towards %.0f deg", at_deg) +
             printed(", %.2g deg to either side", shape[3]);
     for (const auto& [first, face] :
          {std::pair(kProfileOfPlace, 0.0), std::pair(kFaceOfPlace, 1.0)})
@@ -205,7 +216,8 @@ EffectFamily unnamed_body_place() {
         text += ", " + where;
     if (shape[1] != 0.0 && sign != 0)
       text += printed(", by %.3g um of radius", std::abs(told.amounts[0]));
-    return text + ": there the teeth " + (sign == 0 ? "stand out or lie back" : stand(sign)) +
+    return text + ": there the teeth " +
+           (sign == 0 ? "stand out or lie back" : stand(of_a_ring ? -sign : sign)) +
            " on both flanks, as from a gate, an ejector or a clamp";
   };
   return f;

@@ -44,6 +44,14 @@ std::vector<FlankCourse> coarse_courses(const FlankGeometry& geometry, double fa
     for (const double half : {0.1, 0.2})
       courses.push_back(
           {FlankCourse::kBand, gear_effects::place_at(geometry, face, share), 0.0, half * range});
+  // What holds a part of the face ends at an edge.
+  constexpr double kSharp = 0.0, kSoft = 0.04, kSofter = 0.12;
+  for (const double share : {0.12, 0.25, 0.38, 0.5, 0.62, 0.75, 0.88})
+    for (const double towards : {-1.0, 1.0})
+      for (const double half : {kSharp, kSoft, kSofter})
+        if (face == 1.0)
+          courses.push_back({FlankCourse::kStep, gear_effects::place_at(geometry, face, share),
+                             towards, half * range});
   return courses;
 }
 
@@ -317,6 +325,7 @@ bool tell_as_places_around(PartModel& model, const std::vector<SideBySide>& runs
       along |= {effect.needs().along_profile, effect.needs().along_face};
     } else if (runs_of(model.geometry, effect) != Runs::kOtherwise) {
       alike.push_back(e);
+      along |= {effect.needs().along_profile, effect.needs().along_face};
     }
   }
   for (const SideBySide& run : runs) along |= run.along;
@@ -404,13 +413,7 @@ bool tell_as_wider_part(PartModel& model) {
     }
   }
   if (!nameless || !leans) return false;
-  std::vector<FlankCourse> courses = coarse_courses(model.geometry, 1.0);
-  for (const double share : {0.12, 0.25, 0.38, 0.5, 0.62, 0.75, 0.88})
-    for (const double towards : {-1.0, 1.0})
-      for (const double half : {0.0, 0.04, 0.12})  // of the face
-        courses.push_back({FlankCourse::kStep, gear_effects::place_at(model.geometry, 1.0, share),
-                           towards, half * model.geometry.face_width_mm()});
-  return put_one_form_for(model, these, body_waves(0.0, 1.0, courses));
+  return put_one_form_for(model, these, body_waves(0.0, 1.0, coarse_courses(model.geometry, 1.0)));
 }
 
 }  // namespace

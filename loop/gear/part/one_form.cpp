@@ -560,7 +560,7 @@ void tell_as_one_form(PartModel& model) {
       if (tell_as_form_of_other_flanks(model, face)) return true;
     return tell_as_bow(model) || tell_as_form_for_a_name(model);
   };
-  constexpr int kMost = 6;
+  constexpr int kMost = 10;
   int taken = 0;
   while (taken < kMost && once()) ++taken;
   if (taken > 0) drop_idle_beside_one_form(model);
