@@ -7,6 +7,7 @@
 #include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/rest_scan.h"
 #include "trueflank/loop/drive/spell_scan.h"
+#include "trueflank/loop/drive/states_scan.h"
 #include "trueflank/loop/drive/wander_scan.h"
 #include "trueflank/loop/drive/wave_spectrum.h"
 
@@ -71,6 +72,7 @@ DriveOutcome DriveSelection::choose() {
     outcome = settle();
   }
   for (int waves = 0; waves < 4 && propose_wave(outcome); ++waves) outcome = settle();
+  if (propose_states(outcome)) outcome = settle();
   sharpen_courses(outcome);
   const DriveOutcome whole = outcome;
   if (!outcome.effects.empty()) outcome = simplest_that_is_enough(std::move(outcome));
@@ -194,7 +196,8 @@ bool DriveSelection::put_shapes_on_the_grid(const DriveOutcome& outcome) {
   bool moved = false;
   for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
     auto& grid = candidates_[outcome.discovery.chosen[e].group].shape;
-    for (std::size_t k = 0; k < grid.size(); ++k)
+    moved = moved || grid.size() != outcome.effects[e].shape.size();
+    for (std::size_t k = 0; k < std::min(grid.size(), outcome.effects[e].shape.size()); ++k)
       moved = moved || std::abs(grid[k] - outcome.effects[e].shape[k]) > 0.02 * std::abs(grid[k]);
     grid = outcome.effects[e].shape;
   }
@@ -320,6 +323,25 @@ bool DriveSelection::propose_wander(const DriveOutcome& outcome) {
   if (!(wander.p_value < kLevel)) return false;
   const DriveFamily* host = family_with(&DriveFamily::shape_of_wander);
   return add_candidate({host, host->shape_of_wander(wander.what, wander.degree)});
+}
+
+bool DriveSelection::propose_states(const DriveOutcome& outcome) {
+  if (gains_power() && !losses_beside_gains_) return false;
+  constexpr double kLevel = 0.001;     // searched beside the engine's own test
+  constexpr double kEachChange = 9.0;  // chi-square
+  const DriveContext here = context();
+  // (what grows over the run may only imitate it)
+  const LikeliestStates states = likeliest_states(
+      here, left_without(outcome, [](const DriveEffect& effect) {
+        return has_no_name(effect) || effect.family->drifts || effect.family->follows_the_run;
+      }));
+  if (!(states.p_value < kLevel)) return false;
+  // What follows something that was recorded needs no list of times.
+  const double each = kEachChange * states.square / outcome.rows;
+  if (outcome.square - states.square < each * static_cast<double>(states.changes.size() + 1))
+    return false;
+  const DriveFamily* host = family_with(&DriveFamily::shape_of_states);
+  return add_candidate({host, host->shape_of_states(states.what, states.changes)});
 }
 
 bool DriveSelection::add_candidate(const DriveEffect& effect) {

@@ -125,6 +125,8 @@ class DriveSelection {
   [[nodiscard]] Eigen::VectorXd left_without(
       const DriveOutcome& outcome,
       const std::function<bool(const DriveEffect&)>& is_left_out) const;
+  /// Where the rest jumps to and fro between two levels at no regular times: one candidate more.
+  bool propose_states(const DriveOutcome& outcome);
   /// False where it is one already.
   bool add_candidate(const DriveEffect& effect);
   /// Tries the named effects in the order in which people would think of them: where the plainer
