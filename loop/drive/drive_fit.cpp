@@ -306,8 +306,10 @@ void refine_drive_shapes(const DriveContext& context, const Eigen::VectorXd& val
             at_b = square(b = high - kGolden * (high - low));
           }
         }
-        // Of a sum that falls in steps it may end beside the lowest.
-        if (const double at_end = square(0.5 * (low + high)); at_end > square_here)
+        // Of a sum that falls in steps it may end beside the lowest; of one that is flat, as what
+        // is nothing at a place beside a constant makes it, anywhere.
+        constexpr double kFlat = 1e-8;
+        if (const double at_end = square(0.5 * (low + high)); at_end > square_here * (1.0 - kFlat))
           effects[e].shape[k] = here;
       }
     }

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "trueflank/loop/drive/effects/columns.h"
+#include "trueflank/loop/drive/place_profile.h"
 #include "trueflank/loop/drive/rest_scan.h"
 #include "trueflank/loop/drive/spell_scan.h"
 #include "trueflank/loop/drive/states_scan.h"
@@ -85,7 +86,22 @@ DriveOutcome DriveSelection::choose() {
   veto(outcome);
   if (vetoed_) stand_by_the_whole(whole, outcome);
   if (vetoed_) drop_what_is_nothing(outcome);
+  ask_what_is_left_again(outcome);
   return outcome;
+}
+
+void DriveSelection::ask_what_is_left_again(DriveOutcome& outcome) {
+  constexpr double kSure = 6.6;  // chi-square
+  DiscoveryResult& found = outcome.discovery;
+  if (found.most_likely_left < 0 || outcome.effects.empty()) return;
+  const DriveEffect& likeliest = candidates_[static_cast<std::size_t>(found.most_likely_left)];
+  if (likeliest.columns() != 1) return;
+  const DriveContext here = context();
+  const BesideEffects beside(here, value_, outcome.effects, FitRows::kTraining);
+  const double noise = beside.square() / std::max(1.0, outcome.rows - outcome.size());
+  if (beside.with(likeliest).gain > kSure * noise * std::max(1.0, outcome.shared)) return;
+  found.p_left = 1.0;
+  found.most_likely_left = -1;
 }
 
 bool DriveSelection::may_be_there(const DriveFamily& family) const {
@@ -105,17 +121,18 @@ DriveOutcome DriveSelection::losses_beside_gains(DriveOutcome sensors) {
   DriveOutcome all = choose();
   all.square = square_of(all);
   // A reading that goes wrong without a name must be most of what sensors with names leave, and is
-  // reason enough for no loss that has a name.
+  // reason enough for a loss that has a name only where it is told as a form by itself.
   constexpr double kMostOfIt = 0.25;
-  bool reads_wrong = false, reads_oddly = false, has_loss = false;
+  bool reads_wrong = false, reads_oddly = false, has_loss = false, as_a_form = false;
   for (const DriveEffect& e : all.effects) {
     if (e.family->is_loss)
       has_loss = has_loss || e.family->named;
     else
       (e.family->named ? reads_wrong : reads_oddly) = true;
+    as_a_form = as_a_form || (!e.family->is_loss && e.family->stands_alone);
   }
-  reads_wrong =
-      reads_wrong || (reads_oddly && !has_loss && all.square < kMostOfIt * sensors.square);
+  reads_wrong = reads_wrong || (reads_oddly && (!has_loss || as_a_form) &&
+                                all.square < kMostOfIt * sensors.square);
   if (reads_wrong && earns_its_figures(all, sensors) && !leaves_structure(all)) return all;
   losses_beside_gains_ = false;
   std::tie(candidates_, banned_, exchangeable_, state_, vetoed_) = kept;
@@ -330,17 +347,29 @@ bool DriveSelection::propose_states(const DriveOutcome& outcome) {
   constexpr double kLevel = 0.001;     // searched beside the engine's own test
   constexpr double kEachChange = 9.0;  // chi-square
   const DriveContext here = context();
+  const DriveFamily* host = family_with(&DriveFamily::shape_of_states);
   // (what grows over the run may only imitate it)
-  const LikeliestStates states = likeliest_states(
-      here, left_without(outcome, [](const DriveEffect& effect) {
-        return has_no_name(effect) || effect.family->drifts || effect.family->follows_the_run;
-      }));
+  std::vector<DriveEffect> beside;
+  for (const DriveEffect& effect : outcome.effects)
+    if (!has_no_name(effect) && !effect.family->drifts && !effect.family->follows_the_run)
+      beside.push_back(effect);
+  // Names may have taken a part of it: both are fitted together.
+  LikeliestStates states =
+      likeliest_states(here, left_without(outcome, [&](const DriveEffect& e) {
+                         return has_no_name(e) || e.family->drifts || e.family->follows_the_run;
+                       }));
+  for (int round = 0; round < 3 && !states.changes.empty(); ++round) {
+    std::vector<DriveEffect> together = beside;
+    together.push_back({host, host->shape_of_states(states.what, states.changes)});
+    const DriveFit fit(here, value_, together, FitRows::kTraining);
+    states = likeliest_states(
+        here, value_ - fit.explained_nm() + fit.explained_nm(static_cast<int>(beside.size())));
+  }
   if (!(states.p_value < kLevel)) return false;
   // What follows something that was recorded needs no list of times.
   const double each = kEachChange * states.square / outcome.rows;
   if (outcome.square - states.square < each * static_cast<double>(states.changes.size() + 1))
     return false;
-  const DriveFamily* host = family_with(&DriveFamily::shape_of_states);
   return add_candidate({host, host->shape_of_states(states.what, states.changes)});
 }
 

@@ -222,6 +222,8 @@ void DriveSelection::add_sets_with_one_form(const DriveOutcome& outcome, const O
       std::erase_if(forms, [&](const DriveEffect& form) { return form.family->named; });
     // Beside all that is plain a place is found, and moves little where some of it is left out.
     for (DriveEffect& form : forms) {
+      // (one that holds a constant is free to go anywhere beside another one)
+      if (form.family->holds_a_constant) continue;
       std::vector<DriveEffect> effects = full;
       effects.push_back(form);
       refine_drive_shapes(context(), value_, FitRows::kTraining, effects);

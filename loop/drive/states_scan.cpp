@@ -141,7 +141,8 @@ std::vector<double> changes_of(const DriveContext& context, const Series& s, con
 }  // namespace
 
 LikeliestStates likeliest_states(const DriveContext& context, const Eigen::VectorXd& left) {
-  LikeliestStates best;
+  LikeliestStates best, likely;
+  likely.square = 1e300;
   if (!drive_effects::has_one_course(context)) return best;
   constexpr std::array kKinds{drive_effects::kDrag, drive_effects::kOutputReads,
                               drive_effects::kFlanks};
@@ -156,6 +157,8 @@ LikeliestStates likeliest_states(const DriveContext& context, const Eigen::Vecto
     if (states.changes < kFewestChanges || states.changes > kMostOften * n ||
         !(constant.square > 0.0))
       continue;
+    if (states.square < likely.square)
+      likely = {.what = what, .changes = changes_of(context, s, states), .square = states.square};
     // How far the levels are apart in the scatter about them, and whether this hangs together.
     double apart = 0.0, product = 0.0, last = 0.0;
     for (std::size_t i = 0; i < s.value.size(); ++i) {
@@ -181,7 +184,7 @@ LikeliestStates likeliest_states(const DriveContext& context, const Eigen::Vecto
             .changes = changes_of(context, s, states),
             .square = states.square};
   }
-  return best;
+  return best.changes.empty() ? likely : best;
 }
 
 std::vector<double> changes_of_states(const DriveContext& context, const Eigen::VectorXd& left,

@@ -20,7 +20,7 @@ struct LikeliestStates {
   double square = 0.0;  ///< what the training leaves about the levels, in the noise's units
 };
 /// `left` [N m] of every row. Requires: rows of one file in their order. Errors that hang together
-/// inside the states, or levels that are not apart, leave a p-value of 1.
+/// inside the states, or levels that are not apart, leave a p-value of 1 and the likeliest changes.
 [[nodiscard]] LikeliestStates likeliest_states(const DriveContext& context,
                                                const Eigen::VectorXd& left);
 

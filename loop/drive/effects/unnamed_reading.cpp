@@ -101,7 +101,7 @@ DriveFamily unnamed_reading_power() {
               const std::vector<Parameter>& figures) {
     return "the output's torque " + reads_in_words(figures[0]) + " at " + speed_text(context) +
            ", by the power " + with_interval(figures[1], " of the speed") +
-           ", or the input's torque as much the other way" + kNoLoss;
+           ", or the input's torque as much the other way, divided by the ratio" + kNoLoss;
   };
   f.words = [](const DriveModel&, const DriveShape&, const DriveContext*) {
     return std::string("as a reading of the output's torque that follows the speed");
@@ -178,6 +178,8 @@ DriveFamily unnamed_gain_slope() {
   f.over = [](const DriveShape&) { return 2.0; };
   f.beside_load = f.over;
   f.holds_a_constant = true;
+  // A place moves little: it starts inside the range and beside it.
+  f.kin_shapes = [](const DriveShape&) { return std::vector<DriveShape>{{0.5}, {-0.1}, {1.1}}; };
   f.shape_values = {{.continuous = true, .is_place = true, .limits = [](const DriveContext&) {
                        return std::pair(kLeastRight, kMostRight);
                      }}};
