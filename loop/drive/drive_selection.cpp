@@ -78,7 +78,9 @@ DriveOutcome DriveSelection::choose() {
   const DriveOutcome whole = outcome;
   if (!outcome.effects.empty()) outcome = simplest_that_is_enough(std::move(outcome));
   sharpen_courses(outcome);
+  absorb_the_scale(outcome);
   tell_as_one_form(outcome);
+  absorb_the_scale(outcome);
   tell_as_one_place_of_a_turn(outcome);
   follow_the_run(outcome);
   prefer_plainer_names(outcome);
@@ -88,6 +90,47 @@ DriveOutcome DriveSelection::choose() {
   if (vetoed_) drop_what_is_nothing(outcome);
   ask_what_is_left_again(outcome);
   return outcome;
+}
+
+void DriveSelection::absorb_the_scale(DriveOutcome& outcome) {
+  constexpr double kAsWell = 9.0;  // chi-square
+  const auto find = [&](const auto& is_it) {
+    return static_cast<std::size_t>(
+        std::find_if(outcome.effects.begin(), outcome.effects.end(), is_it) -
+        outcome.effects.begin());
+  };
+  const std::size_t gain = find([](const DriveEffect&e) {
+    const DriveFamily& f = *e.family;
+    return !f.is_loss && f.holds_a_constant && f.beside_load;
+  }),
+                    scale = find([](const DriveEffect&e) {
+                      const DriveFamily& f = *e.family;
+                      return f.named && !f.is_loss && f.base && f.into_state;
+                    });
+  if (gain == outcome.effects.size() || scale == outcome.effects.size()) return;
+  const DriveState state = state_;
+  DriveOutcome now = outcome, with = outcome;
+  settle_after_exchange(now);
+  const DriveContext here = context();
+  const DriveFit fit(here, value_, now.effects, FitRows::kTraining);
+  const double more = fit.coefficients()[fit.first_column(static_cast<int>(scale))],
+               slope = fit.coefficients()[fit.first_column(static_cast<int>(gain))];
+  double& right = with.effects[gain].shape.front();
+  right -= more / slope;
+  const auto [least, most] = outcome.effects[gain].family->shape_values.front().limits(here);
+  if (right < least || right > most) return;
+  with.effects.erase(with.effects.begin() + static_cast<std::ptrdiff_t>(scale));
+  with.discovery.chosen.erase(with.discovery.chosen.begin() + static_cast<std::ptrdiff_t>(scale));
+  for (int round = 0; round < 2; ++round) {
+    settle_state(with);
+    refine_drive_shapes(context(), value_, FitRows::kTraining, with.effects);
+  }
+  settle_after_exchange(with);
+  const double noise = now.square / std::max(1.0, now.rows - now.size());
+  if (with.square - now.square < kAsWell * noise * now.shared && is_possible(with))
+    outcome = std::move(with);
+  else
+    state_ = state;
 }
 
 void DriveSelection::ask_what_is_left_again(DriveOutcome& outcome) {

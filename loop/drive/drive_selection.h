@@ -179,6 +179,9 @@ class DriveSelection {
   /// Of several effects those that are nothing once all shapes are free: they only mended another's
   /// shape.
   void drop_what_is_nothing(DriveOutcome& outcome);
+  /// A gain that changes and is right somewhere stands for a scale beside it: where it is right is
+  /// moved, and the scale goes.
+  void absorb_the_scale(DriveOutcome& outcome);
   /// What looked most like structure that is left was asked beside the effects as they were chosen:
   /// beside those that took their place it may be nothing.
   void ask_what_is_left_again(DriveOutcome& outcome);

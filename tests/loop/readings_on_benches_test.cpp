@@ -228,6 +228,32 @@ TEST(ReadingsOnBenches, ADragThatIsThereAtTimesIsTwoStatesAndFollowsNoTemperatur
   EXPECT_GE(answers.right, answers.seldom_fewer(0.85)) << answers.text();
 }
 
+TEST(ReadingsOnBenches, AFormOverATemperatureThatRoseWithTheRunIsNotAsGoodAsCertain) {
+  int over_temperature = 0;
+  for (int run = 1; run <= kOfEach; ++run) {
+    const auto seed = static_cast<std::uint64_t>(70000 + run);
+    DrawnBench bench(seed, RowOrder::kShuffled);
+    bench.with_temperature = true;
+    const double span = bench.between(15.0, 30.0), at = bench.between(0.3, 0.7),
+                 most = bench.scatter_nm() * bench.between(3.0, 6.0);
+    for (DrawnRow& row : bench.rows)
+      row.warm_c =
+          22.0 + span * row.row / static_cast<double>(bench.rows.size()) + bench.between(-0.3, 0.3);
+    const auto closed = loop::close_drive_loop(bench.model(), bench.data([&](const DrawnRow& row) {
+      const double x = (row.warm_c - 22.0) / span - at;
+      return most * std::exp(-x * x / 0.02);
+    }));
+    ASSERT_TRUE(closed) << "seed " << seed;
+    for (const loop::FoundEffect& effect : closed->result.effects) {
+      if (effect.named || !says(effect, "temperature of")) continue;
+      ++over_temperature;
+      EXPECT_FALSE(effect.sure.starts_with("as good as certain")) << "seed " << seed;
+      EXPECT_NE(effect.sure.find("changed meanwhile"), std::string::npos) << "seed " << seed;
+    }
+  }
+  EXPECT_GT(over_temperature, 0);
+}
+
 TEST(ReadingsOnBenches, ALossByAPowerOfTheSpeedBeginsNowhere) {
   Answers answers;
   for (int run = 1; run <= kOfEach; ++run) {
