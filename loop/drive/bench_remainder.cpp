@@ -42,6 +42,10 @@ class Asking {
         left_(left),
         set_point_(set_points_of(table.points)),
         visit_(visits_of(table.points, set_point_)) {
+    for (const BenchPoint& p : table.points) {
+      double& most = most_sigma_[p.forward ? 1 : 0];
+      most = std::max(most, p.sigma_nm);
+    }
     gather();
   }
 
@@ -275,12 +279,21 @@ class Asking {
     return p_value;
   }
 
+  /// A row's error in the largest one: 1, or less where it grows with the load or the speed.
+  [[nodiscard]] double weight_of(Eigen::Index row) const {
+    return table_.points[static_cast<std::size_t>(row)].sigma_nm / most_sigma_[of(row)];
+  }
+  [[nodiscard]] std::size_t of(Eigen::Index row) const {
+    return table_.points[static_cast<std::size_t>(row)].forward ? 1 : 0;
+  }
+
   /// The scatter of a direction's rows about their own kind, wild ones without weight: of repeated
   /// set points, of dwells, else of all.
   [[nodiscard]] double scatter_of(const std::vector<Eigen::Index>& rows,
                                   const std::vector<int>& kind) const {
     std::map<int, std::vector<double>> kinds;
-    for (const Eigen::Index i : rows) kinds[kind[static_cast<std::size_t>(i)]].push_back(left_[i]);
+    for (const Eigen::Index i : rows)
+      kinds[kind[static_cast<std::size_t>(i)]].push_back(left_[i] / weight_of(i));
     std::vector<double> off;
     for (const auto& [number, values] : kinds) {
       const double n = static_cast<double>(values.size());
@@ -320,9 +333,13 @@ class Asking {
         driven.push_back(table_.points[static_cast<std::size_t>(i)].driven_nm);
       scatter = std::max({scatter, step_of(std::move(driven)) / std::sqrt(12.0),
                           rounding_of(table_.points, forward)});
-      const double rms = left_(rows).norm() / std::sqrt(static_cast<double>(rows.size()));
+      double square = 0.0;
+      for (const Eigen::Index i : rows) {
+        square += std::pow(left_[i] / weight_of(i), 2);
+        noise += std::pow(scatter * weight_of(i), 2);
+      }
+      const double rms = std::sqrt(square / static_cast<double>(rows.size()));
       times = std::max(times, rms / std::max(scatter, 1e-9 * left_.cwiseAbs().maxCoeff() + 1e-300));
-      noise += scatter * scatter * static_cast<double>(rows.size());
     }
     if (times < kMuchMore) return;
     found.noise_nm = std::sqrt(noise / static_cast<double>(left_.size()));
@@ -378,7 +395,7 @@ class Asking {
     const double times = std::sqrt(left_.squaredNorm() / n) / std::max(found.noise_nm, 1e-300);
     constexpr double kHardly = 1.1;
     found.follows =
-        (times < kHardly ? "what is left is hardly more than the noise, but "
+        (times < kHardly ? "what is left is mostly scatter of single rows, but a small part of it "
                          : "what is left is " + printed("%.2g", times) + " times the noise and ") +
         (told != nullptr ? follows_in_words(*told) : slow_in_words(noise));
   }
@@ -452,7 +469,8 @@ class Asking {
       return printed("%.2g", mean(c)) + " N m " +
              place_in_words(q, table_.points[std::get<2>(c.second)]);
     };
-    return "follows the " + q.what + ": on average " + words(*low) + ", " + words(*high) +
+    const std::string what = q.what.ends_with(',') ? q.what.substr(0, q.what.size() - 1) : q.what;
+    return "follows the " + what + ": on average " + words(*low) + ", " + words(*high) +
            " (at the input; below zero the drive loses more than the model)";
   }
   [[nodiscard]] std::string place_in_words(const Question& q, const BenchPoint& p) const {
@@ -504,6 +522,7 @@ class Asking {
   const double ratio_;
   const Eigen::VectorXd& left_;
   const std::vector<int> set_point_, visit_;
+  std::array<double, 2> most_sigma_{};  ///< backward, forward
   std::vector<std::size_t> first_;  ///< row of every visit
   Eigen::VectorXd size_;            ///< of every visit, in its noise's units
   std::vector<Question> questions_;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -25,8 +26,9 @@ constexpr double kMostOutliers = 0.03;
 constexpr int kComesAgain = 3;
 
 /// Huber regression of one direction's driven torque on powers of load, speed, temperature.
+/// Rows weigh by `growth`, the error of each in the direction's.
 double fit_direction(const std::vector<BenchPoint>& points, bool forward,
-                     std::vector<double>& residual) {
+                     const std::vector<double>& growth, std::vector<double>& residual) {
   std::vector<int> rows;
   double load = 1e-300, speed = 1e-300, middle_temperature = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -49,8 +51,9 @@ double fit_direction(const std::vector<BenchPoint>& points, bool forward,
         std::isnan(p.temperature_c) ? 0.0 : 0.02 * (p.temperature_c - middle_temperature);
     const double all[12] = {1.0,       t,   v, t * t, t * v, v * v,
                             t * t * t, v * v * v, c, c * v, c * t, std::exp(-5.0 * v)};
-    for (int k = 0; k < columns; ++k) x(r, k) = all[k];
-    y[r] = p.driven_nm;
+    const double own = growth[static_cast<std::size_t>(rows[r])];
+    for (int k = 0; k < columns; ++k) x(r, k) = all[k] / own;
+    y[r] = p.driven_nm / own;
   }
   Eigen::VectorXd left = y;
   double sigma = 0.0;
@@ -65,7 +68,7 @@ double fit_direction(const std::vector<BenchPoint>& points, bool forward,
     for (Eigen::Index r = 0; r < n; ++r)
       w[r] = std::abs(left[r]) > 2.0 * sigma ? 2.0 * sigma / std::abs(left[r]) : 1.0;
   }
-  for (Eigen::Index r = 0; r < n; ++r) residual[rows[r]] = left[r];
+  for (Eigen::Index r = 0; r < n; ++r) residual[rows[r]] = left[r] * growth[rows[r]];
   // What stands on a few steps scatters by these: the middle of its sizes is next to nothing.
   sigma = std::max(sigma, rounding_of(points, forward));
   // Data without noise: far below any sensor, so that weights stay finite.
@@ -121,8 +124,8 @@ class TableMaker {
       BenchPoint& p = table_.points[i];
       p.carried_nm = (p.forward ? p.driven_nm - fit.residual_nm[i] : p.driving_nm) / model_.ratio;
     }
-    for (BenchPoint& p : table_.points)
-      if (std::isnan(p.sigma_nm)) p.sigma_nm = p.forward ? fit.sigma_forward_nm : fit.sigma_backward_nm;
+    for (std::size_t i = 0; i < table_.points.size(); ++i)
+      if (std::isnan(table_.points[i].sigma_nm)) table_.points[i].sigma_nm = fit.sigma_nm[i];
     assign_blocks(table_, fit);
     measure_extent(table_);
     if (swapped == Impossible::kNothing) look_for_gains();
@@ -187,19 +190,34 @@ class TableMaker {
     table_.has_temperature = known(&BenchPoint::temperature_c);
     table_.has_angle = known(&BenchPoint::angle_rad) && turns > 0.5;
     table_.turns = turns;
+    if (table_.has_angle && (turns > 1.01 || !wrapped)) measure_swing();
     if (table_.has_angle && turns <= 1.0 && wrapped)
       table_.notes.emplace_back(
           "input_angle_deg starts again every turn: only whole orders of the input can be found; an angle "
           "that counts on would show carrier, planets and output too");
   }
 
+  /// An angle that goes on to one side is a time, and says nothing of its own.
+  void measure_swing() {
+    constexpr double kToOneSide = 0.8;
+    const auto& points = table_.points;
+    if (points.back().file != points.front().file) return;
+    double low = 1e300, high = -1e300, way = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      low = std::min(low, points[i].angle_rad);
+      high = std::max(high, points[i].angle_rad);
+      if (i > 0) way += std::abs(points[i].angle_rad - points[i - 1].angle_rad);
+    }
+    if (std::abs(points.back().angle_rad - points.front().angle_rad) > kToOneSide * way) return;
+    table_.least_angle_rad = low;
+    table_.swing_rad = high - low;
+  }
+
   /// True where rows were left out.
   bool leave_out_outliers(const SmoothFit& fit) {
     std::vector<std::size_t> far;
     for (std::size_t i = 0; i < table_.points.size(); ++i) {
-      const double sigma =
-          table_.points[i].forward ? fit.sigma_forward_nm : fit.sigma_backward_nm;
-      if (std::abs(fit.residual_nm[i]) > kOutlier * sigma) far.push_back(i);
+      if (std::abs(fit.residual_nm[i]) > kOutlier * fit.sigma_nm[i]) far.push_back(i);
     }
     // Neighbours that lie off to the same side, about as far, are no slips.
     const auto alike = [&](std::size_t k, std::size_t other) {
@@ -225,9 +243,9 @@ class TableMaker {
       return false;
     for (std::size_t k = 0; k < out.size() && k < 5; ++k) {
       const BenchPoint& p = table_.points[out[k]];
-      const std::string text = printed(": outlier left out: driven torque %.4g N m lies %.0f sigma off",
-          p.driven_nm, std::abs(fit.residual_nm[out[k]]) /
-                           (p.forward ? fit.sigma_forward_nm : fit.sigma_backward_nm));
+      const std::string text =
+          printed(": outlier left out: driven torque %.4g N m lies %.0f sigma off", p.driven_nm,
+                  std::abs(fit.residual_nm[out[k]]) / fit.sigma_nm[out[k]]);
       table_.notes.push_back(data_.files[p.file] + ":" + std::to_string(p.line) + text);
     }
     if (out.size() > 5)
@@ -245,9 +263,7 @@ class TableMaker {
     constexpr double kAlike = 3.0, kMost = 0.8;
     if (out.size() < kSeveral) return false;
     std::vector<double> size;
-    for (const std::size_t i : out)
-      size.push_back(fit.residual_nm[i] /
-                     (table_.points[i].forward ? fit.sigma_forward_nm : fit.sigma_backward_nm));
+    for (const std::size_t i : out) size.push_back(fit.residual_nm[i] / fit.sigma_nm[i]);
     const double middle = median(size);
     const auto alike = std::count_if(size.begin(), size.end(), [&](double one) {
       return one / middle > 1.0 / kAlike && one / middle < kAlike;
@@ -359,9 +375,25 @@ void measure_extent(BenchTable& table) {
 
 SmoothFit smooth_fit(const std::vector<BenchPoint>& points) {
   SmoothFit fit;
+  const std::array<double, 2> rounding_of_direction{rounding_of(points, false),
+                                                    rounding_of(points, true)};
   fit.residual_nm.assign(points.size(), 0.0);
-  fit.sigma_forward_nm = fit_direction(points, true, fit.residual_nm);
-  fit.sigma_backward_nm = fit_direction(points, false, fit.residual_nm);
+  std::vector<double> growth(points.size(), 1.0);
+  const auto fit_both = [&] {
+    fit.sigma_forward_nm = fit_direction(points, true, growth, fit.residual_nm);
+    fit.sigma_backward_nm = fit_direction(points, false, growth, fit.residual_nm);
+  };
+  fit_both();
+  // (what every direction's noise is follows the weights; growth is asked in the plain ones' units)
+  const std::vector<double> grows = growth_of_noise(points, fit);
+  if (std::any_of(grows.begin(), grows.end(), [](double g) { return g != 1.0; })) {
+    growth = grows;
+    fit_both();
+  }
+  for (std::size_t i = 0; i < points.size(); ++i)
+    fit.sigma_nm.push_back(
+        std::max((points[i].forward ? fit.sigma_forward_nm : fit.sigma_backward_nm) * growth[i],
+                 rounding_of_direction[points[i].forward ? 1 : 0]));
   return fit;
 }
 

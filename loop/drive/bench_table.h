@@ -23,7 +23,8 @@ struct BenchPoint {
   double temperature_c = kNaN;
   double angle_rad = kNaN;  ///< of the input, unwrapped
   double taken = 0.0;       ///< when among the rows of its file: 0 first ... 1 last
-  double sigma_nm = kNaN;   ///< of driven_nm: as given, else estimated for its direction
+  double sigma_nm =
+      kNaN;  ///< of driven_nm: as given, else estimated for its direction, load and speed
   int unit = 0;             ///< rows of one set point, or of a stretch of a log
   /// Rows that share the rounding of one coarse reading of the driving torque; -1: it is read finely.
   int reading = -1;
@@ -56,6 +57,8 @@ struct BenchTable {
   bool drifts = false;  ///< neighbouring set points hang together: a log, or a drifting zero
   bool has_temperature = false, has_angle = false;
   double turns = 0.0;   ///< of the input that the angles span
+  /// The least of the angles and how far they reach, where they go to and fro; else a reach of 0.
+  double least_angle_rad = 0.0, swing_rad = 0.0;
   double most_speed_rpm = 0.0, least_speed_rpm = 0.0, most_load_nm = 0.0, least_load_nm = 0.0;
   double most_carried_nm = 0.0, least_carried_nm = 0.0;
   std::array<double, 2> most_carried_of{};  ///< backward, forward
@@ -87,7 +90,13 @@ inline constexpr int kBenchFolds = 8;
 struct SmoothFit {
   std::vector<double> residual_nm;
   double sigma_forward_nm = kNaN, sigma_backward_nm = kNaN;
+  std::vector<double>
+      sigma_nm;  ///< of every row: its direction's, or what grows with load or speed
 };
+/// The error of every row in its direction's: 1 each, or what grows with the load or the speed
+/// where that is sure.
+[[nodiscard]] std::vector<double> growth_of_noise(const std::vector<BenchPoint>& points,
+                                                  const SmoothFit& fit);
 [[nodiscard]] SmoothFit smooth_fit(const std::vector<BenchPoint>& points);
 /// Ranges and levels of the points.
 void measure_extent(BenchTable& table);

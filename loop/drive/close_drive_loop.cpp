@@ -37,7 +37,9 @@ class DriveReport {
                    .coefficients = {},
                    .state = {}};
     const DriveContext held = selection_.context();
-    const DriveFit training(held, selection_.value_nm(), outcome.effects, FitRows::kTraining);
+    const DriveFit training(held, selection_.value_nm(),
+                            with_states_of_all_rows(held, selection_.value_nm(), outcome.effects),
+                            FitRows::kTraining);
     const Eigen::VectorXd left_training = selection_.value_nm() - training.explained_nm();
     // Shapes, friction and scale once more with all rows: for the figures people use.
     std::vector<DriveEffect> effects = outcome.effects;
@@ -152,7 +154,7 @@ class DriveReport {
       r.structure_left = remainder.follows;
     }
     if (r.verdict == Verdict::kExplained &&
-        r.after.held_out_rms > larger_than_noise(r.noise, r.held_out)) {
+        r.after.held_out_rms > larger_than_noise(r.noise, rows_that_count())) {
       r.verdict = Verdict::kPartlyExplained;
       r.structure_left = printed(
           "on the rows held out from the fit %.2g times the noise is left: these effects fit the "
@@ -164,8 +166,23 @@ class DriveReport {
   }
 
   /// A quarter above the noise, and as much more as the rms of so few rows may scatter.
-  [[nodiscard]] static double larger_than_noise(double noise, int rows) {
-    return noise * (1.25 + 3.0 / std::sqrt(2.0 * std::max(1, rows)));
+  [[nodiscard]] static double larger_than_noise(double noise, double rows) {
+    return noise * (1.25 + 3.0 / std::sqrt(2.0 * std::max(1.0, rows)));
+  }
+
+  /// Of the rows held out: where the errors of a direction differ the larger ones make the figure.
+  [[nodiscard]] double rows_that_count() const {
+    double count = 0.0;
+    for (const bool forward : {true, false}) {
+      double square = 0.0, fourth = 0.0;
+      for (const BenchPoint& p : selection_.table().points) {
+        if (p.fold != 0 || p.forward != forward) continue;
+        square += p.sigma_nm * p.sigma_nm;
+        fourth += std::pow(p.sigma_nm, 4);
+      }
+      if (fourth > 0.0) count += square * square / fourth;
+    }
+    return count;
   }
 
   /// What readings in steps add to the residual: all of a dwell may be rounded alike. A sensor's

@@ -180,6 +180,10 @@ struct DriveFamily : EffectFacts {
   std::function<double(const DriveShape&)> piece_over = {};
   /// Over which quantity it has a course in proportion to the load; kOverNothing, or empty: none.
   std::function<double(const DriveShape&)> beside_load = {};
+  /// It begins, jumps or is largest at a place: told only where it leaves clearly less than what
+  /// grows and begins nowhere.
+  bool has_a_place = false;
+  std::function<bool(const DriveShape&)> begins_nowhere = {};
   /// Where it is nothing is a figure of its own, and stands for what is the same everywhere.
   bool holds_a_constant = false;
   /// Kinds of shapes of which each is tried by its own likeliest place; empty: there is one.
@@ -201,6 +205,9 @@ struct DriveFamily : EffectFacts {
   /// The shape of what dies away from every rest on that a scan proposes; empty: it takes none.
   std::function<DriveShape(double what, double period, double phase, double rows)> shape_of_rest =
       {};
+  /// The shape of what is there at times and at times not, of the places of the run where it begins
+  /// and ends in turn, that a scan proposes; empty: it takes none.
+  std::function<DriveShape(double what, const std::vector<double>& changes)> shape_of_states = {};
   /// The shape of a slow course of the run, a polynomial, that a scan proposes; empty: it takes none.
   std::function<DriveShape(double what, int degree)> shape_of_wander = {};
   /// @}

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "trueflank/geometry/linear_equations.h"
+#include "trueflank/loop/drive/states_scan.h"
 
 namespace trueflank::loop {
 namespace {
@@ -40,8 +41,10 @@ DriveFit::DriveFit(const DriveContext& context, const Eigen::VectorXd& value,
   }
   for (const DriveEffect& effect : effects_) {
     shape_column_.emplace_back();
+    // (what has as many values as the data ask for has none that moves)
+    const auto& values = effect.family->shape_values;
     for (std::size_t k = 0; k < effect.shape.size(); ++k)
-      shape_column_.back().push_back(effect.family->shape_values[k].continuous ? columns + shapes_++
+      shape_column_.back().push_back(k < values.size() && values[k].continuous ? columns + shapes_++
                                                                                : -1);
   }
   columns_.resize(static_cast<Eigen::Index>(context_.table.points.size()), columns);
@@ -239,6 +242,17 @@ void refine_ends(const DriveContext& context, const Eigen::VectorXd& value, FitR
     }
 }
 
+/// When it is there and when not, by these rows, beside the other effects as the fit has them.
+DriveShape states_beside(const DriveContext& context, const Eigen::VectorXd& value,
+                         const DriveFit& fit, std::size_t effect, FitRows rows) {
+  const DriveEffect& states = fit.effects()[effect];
+  const Eigen::VectorXd left =
+      value - fit.explained_nm() + fit.explained_nm(static_cast<int>(effect));
+  const DriveShape& shape = states.shape;
+  return states.family->shape_of_states(
+      shape[0], changes_of_states(context, left, shape[0], rows, {shape.begin() + 1, shape.end()}));
+}
+
 }  // namespace
 
 void refine_drive_shapes(const DriveContext& context, const Eigen::VectorXd& value, FitRows rows,
@@ -249,6 +263,12 @@ void refine_drive_shapes(const DriveContext& context, const Eigen::VectorXd& val
     for (std::size_t e = 0; e < effects.size(); ++e) {
       if (effects[e].family->shape_of_spell) {
         if (round == 0) refine_ends(context, value, rows, effects, e);
+        continue;
+      }
+      if (effects[e].family->shape_of_states) {
+        if (round == 0)
+          effects[e].shape =
+              states_beside(context, value, DriveFit(context, value, effects, rows), e, rows);
         continue;
       }
       for (std::size_t k = 0; k < effects[e].shape.size(); ++k) {
@@ -286,11 +306,23 @@ void refine_drive_shapes(const DriveContext& context, const Eigen::VectorXd& val
             at_b = square(b = high - kGolden * (high - low));
           }
         }
-        // Of a sum that falls in steps it may end beside the lowest.
-        if (const double at_end = square(0.5 * (low + high)); at_end > square_here)
+        // Of a sum that falls in steps it may end beside the lowest; of one that is flat, as what
+        // is nothing at a place beside a constant makes it, anywhere.
+        constexpr double kFlat = 1e-8;
+        if (const double at_end = square(0.5 * (low + high)); at_end > square_here * (1.0 - kFlat))
           effects[e].shape[k] = here;
       }
     }
+}
+
+std::vector<DriveEffect> with_states_of_all_rows(const DriveContext& context,
+                                                 const Eigen::VectorXd& value,
+                                                 std::vector<DriveEffect> effects) {
+  for (std::size_t e = 0; e < effects.size(); ++e)
+    if (effects[e].family->shape_of_states)
+      effects[e].shape = states_beside(
+          context, value, DriveFit(context, value, effects, FitRows::kTraining), e, FitRows::kAll);
+  return effects;
 }
 
 const DiscoveryProblem& DriveProblem::made_for(const DriveContext& context,

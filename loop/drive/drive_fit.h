@@ -70,6 +70,12 @@ class DriveFit {
 void refine_drive_shapes(const DriveContext& context, const Eigen::VectorXd& value, FitRows rows,
                          std::vector<DriveEffect>& effects);
 
+/// The same effects, of which those that are there at times and at times not are so in the rows
+/// that are locked away too: when it is there nothing foretells. Amounts stay the training's.
+[[nodiscard]] std::vector<DriveEffect> with_states_of_all_rows(const DriveContext& context,
+                                                               const Eigen::VectorXd& value,
+                                                               std::vector<DriveEffect> effects);
+
 /// The engine's problem for the candidates of a bench. Columns that neither state nor shape changed since
 /// are kept.
 class DriveProblem {

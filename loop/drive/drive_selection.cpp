@@ -5,8 +5,10 @@
 #include <tuple>
 
 #include "trueflank/loop/drive/effects/columns.h"
+#include "trueflank/loop/drive/place_profile.h"
 #include "trueflank/loop/drive/rest_scan.h"
 #include "trueflank/loop/drive/spell_scan.h"
+#include "trueflank/loop/drive/states_scan.h"
 #include "trueflank/loop/drive/wander_scan.h"
 #include "trueflank/loop/drive/wave_spectrum.h"
 
@@ -71,11 +73,14 @@ DriveOutcome DriveSelection::choose() {
     outcome = settle();
   }
   for (int waves = 0; waves < 4 && propose_wave(outcome); ++waves) outcome = settle();
+  if (propose_states(outcome)) outcome = settle();
   sharpen_courses(outcome);
   const DriveOutcome whole = outcome;
   if (!outcome.effects.empty()) outcome = simplest_that_is_enough(std::move(outcome));
   sharpen_courses(outcome);
+  absorb_the_scale(outcome);
   tell_as_one_form(outcome);
+  absorb_the_scale(outcome);
   tell_as_one_place_of_a_turn(outcome);
   follow_the_run(outcome);
   prefer_plainer_names(outcome);
@@ -83,7 +88,63 @@ DriveOutcome DriveSelection::choose() {
   veto(outcome);
   if (vetoed_) stand_by_the_whole(whole, outcome);
   if (vetoed_) drop_what_is_nothing(outcome);
+  ask_what_is_left_again(outcome);
   return outcome;
+}
+
+void DriveSelection::absorb_the_scale(DriveOutcome& outcome) {
+  constexpr double kAsWell = 9.0;  // chi-square
+  const auto find = [&](const auto& is_it) {
+    return static_cast<std::size_t>(
+        std::find_if(outcome.effects.begin(), outcome.effects.end(), is_it) -
+        outcome.effects.begin());
+  };
+  const std::size_t gain = find([](const DriveEffect&e) {
+    const DriveFamily& f = *e.family;
+    return !f.is_loss && f.holds_a_constant && f.beside_load;
+  }),
+                    scale = find([](const DriveEffect&e) {
+                      const DriveFamily& f = *e.family;
+                      return f.named && !f.is_loss && f.base && f.into_state;
+                    });
+  if (gain == outcome.effects.size() || scale == outcome.effects.size()) return;
+  const DriveState state = state_;
+  DriveOutcome now = outcome, with = outcome;
+  settle_after_exchange(now);
+  const DriveContext here = context();
+  const DriveFit fit(here, value_, now.effects, FitRows::kTraining);
+  const double more = fit.coefficients()[fit.first_column(static_cast<int>(scale))],
+               slope = fit.coefficients()[fit.first_column(static_cast<int>(gain))];
+  double& right = with.effects[gain].shape.front();
+  right -= more / slope;
+  const auto [least, most] = outcome.effects[gain].family->shape_values.front().limits(here);
+  if (right < least || right > most) return;
+  with.effects.erase(with.effects.begin() + static_cast<std::ptrdiff_t>(scale));
+  with.discovery.chosen.erase(with.discovery.chosen.begin() + static_cast<std::ptrdiff_t>(scale));
+  for (int round = 0; round < 2; ++round) {
+    settle_state(with);
+    refine_drive_shapes(context(), value_, FitRows::kTraining, with.effects);
+  }
+  settle_after_exchange(with);
+  const double noise = now.square / std::max(1.0, now.rows - now.size());
+  if (with.square - now.square < kAsWell * noise * now.shared && is_possible(with))
+    outcome = std::move(with);
+  else
+    state_ = state;
+}
+
+void DriveSelection::ask_what_is_left_again(DriveOutcome& outcome) {
+  constexpr double kSure = 6.6;  // chi-square
+  DiscoveryResult& found = outcome.discovery;
+  if (found.most_likely_left < 0 || outcome.effects.empty()) return;
+  const DriveEffect& likeliest = candidates_[static_cast<std::size_t>(found.most_likely_left)];
+  if (likeliest.columns() != 1) return;
+  const DriveContext here = context();
+  const BesideEffects beside(here, value_, outcome.effects, FitRows::kTraining);
+  const double noise = beside.square() / std::max(1.0, outcome.rows - outcome.size());
+  if (beside.with(likeliest).gain > kSure * noise * std::max(1.0, outcome.shared)) return;
+  found.p_left = 1.0;
+  found.most_likely_left = -1;
 }
 
 bool DriveSelection::may_be_there(const DriveFamily& family) const {
@@ -103,17 +164,18 @@ DriveOutcome DriveSelection::losses_beside_gains(DriveOutcome sensors) {
   DriveOutcome all = choose();
   all.square = square_of(all);
   // A reading that goes wrong without a name must be most of what sensors with names leave, and is
-  // reason enough for no loss that has a name.
+  // reason enough for a loss that has a name only where it is told as a form by itself.
   constexpr double kMostOfIt = 0.25;
-  bool reads_wrong = false, reads_oddly = false, has_loss = false;
+  bool reads_wrong = false, reads_oddly = false, has_loss = false, as_a_form = false;
   for (const DriveEffect& e : all.effects) {
     if (e.family->is_loss)
       has_loss = has_loss || e.family->named;
     else
       (e.family->named ? reads_wrong : reads_oddly) = true;
+    as_a_form = as_a_form || (!e.family->is_loss && e.family->stands_alone);
   }
-  reads_wrong =
-      reads_wrong || (reads_oddly && !has_loss && all.square < kMostOfIt * sensors.square);
+  reads_wrong = reads_wrong || (reads_oddly && (!has_loss || as_a_form) &&
+                                all.square < kMostOfIt * sensors.square);
   if (reads_wrong && earns_its_figures(all, sensors) && !leaves_structure(all)) return all;
   losses_beside_gains_ = false;
   std::tie(candidates_, banned_, exchangeable_, state_, vetoed_) = kept;
@@ -194,7 +256,8 @@ bool DriveSelection::put_shapes_on_the_grid(const DriveOutcome& outcome) {
   bool moved = false;
   for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
     auto& grid = candidates_[outcome.discovery.chosen[e].group].shape;
-    for (std::size_t k = 0; k < grid.size(); ++k)
+    moved = moved || grid.size() != outcome.effects[e].shape.size();
+    for (std::size_t k = 0; k < std::min(grid.size(), outcome.effects[e].shape.size()); ++k)
       moved = moved || std::abs(grid[k] - outcome.effects[e].shape[k]) > 0.02 * std::abs(grid[k]);
     grid = outcome.effects[e].shape;
   }
@@ -320,6 +383,37 @@ bool DriveSelection::propose_wander(const DriveOutcome& outcome) {
   if (!(wander.p_value < kLevel)) return false;
   const DriveFamily* host = family_with(&DriveFamily::shape_of_wander);
   return add_candidate({host, host->shape_of_wander(wander.what, wander.degree)});
+}
+
+bool DriveSelection::propose_states(const DriveOutcome& outcome) {
+  if (gains_power() && !losses_beside_gains_) return false;
+  constexpr double kLevel = 0.001;     // searched beside the engine's own test
+  constexpr double kEachChange = 9.0;  // chi-square
+  const DriveContext here = context();
+  const DriveFamily* host = family_with(&DriveFamily::shape_of_states);
+  // (what grows over the run may only imitate it)
+  std::vector<DriveEffect> beside;
+  for (const DriveEffect& effect : outcome.effects)
+    if (!has_no_name(effect) && !effect.family->drifts && !effect.family->follows_the_run)
+      beside.push_back(effect);
+  // Names may have taken a part of it: both are fitted together.
+  LikeliestStates states =
+      likeliest_states(here, left_without(outcome, [&](const DriveEffect& e) {
+                         return has_no_name(e) || e.family->drifts || e.family->follows_the_run;
+                       }));
+  for (int round = 0; round < 3 && !states.changes.empty(); ++round) {
+    std::vector<DriveEffect> together = beside;
+    together.push_back({host, host->shape_of_states(states.what, states.changes)});
+    const DriveFit fit(here, value_, together, FitRows::kTraining);
+    states = likeliest_states(
+        here, value_ - fit.explained_nm() + fit.explained_nm(static_cast<int>(beside.size())));
+  }
+  if (!(states.p_value < kLevel)) return false;
+  // What follows something that was recorded needs no list of times.
+  const double each = kEachChange * states.square / outcome.rows;
+  if (outcome.square - states.square < each * static_cast<double>(states.changes.size() + 1))
+    return false;
+  return add_candidate({host, host->shape_of_states(states.what, states.changes)});
 }
 
 bool DriveSelection::add_candidate(const DriveEffect& effect) {

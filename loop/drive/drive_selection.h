@@ -125,6 +125,8 @@ class DriveSelection {
   [[nodiscard]] Eigen::VectorXd left_without(
       const DriveOutcome& outcome,
       const std::function<bool(const DriveEffect&)>& is_left_out) const;
+  /// Where the rest jumps to and fro between two levels at no regular times: one candidate more.
+  bool propose_states(const DriveOutcome& outcome);
   /// False where it is one already.
   bool add_candidate(const DriveEffect& effect);
   /// Tries the named effects in the order in which people would think of them: where the plainer
@@ -177,6 +179,12 @@ class DriveSelection {
   /// Of several effects those that are nothing once all shapes are free: they only mended another's
   /// shape.
   void drop_what_is_nothing(DriveOutcome& outcome);
+  /// A gain that changes and is right somewhere stands for a scale beside it: where it is right is
+  /// moved, and the scale goes.
+  void absorb_the_scale(DriveOutcome& outcome);
+  /// What looked most like structure that is left was asked beside the effects as they were chosen:
+  /// beside those that took their place it may be nothing.
+  void ask_what_is_left_again(DriveOutcome& outcome);
   /// The locked hold-out may say no: while its error would rise, the effect goes that harms it
   /// most.
   void veto(DriveOutcome& outcome);

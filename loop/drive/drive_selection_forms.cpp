@@ -45,11 +45,12 @@ bool is_plain(const DriveEffect& effect, bool with_load) {
           (with_load && family.preference == 0 && family.follows == "load"));
 }
 
-/// A sensor's zero: beside what follows the temperature it may only be what this is at its middle.
+/// A sensor's zero or scale: beside what follows the temperature it may only be what this is at its
+/// middle, beside pieces over the speed what these are at theirs.
 bool is_zero(const DriveEffect& effect, double over) {
   const DriveFamily& family = *effect.family;
-  return over == 2.0 && family.named && !family.is_loss && effect.columns() == 1 &&
-         effect.shape.empty() && !family.base;
+  return over != 0.0 && family.named && !family.is_loss && effect.columns() == 1 &&
+         effect.shape.empty();
 }
 
 /// A friction of the flanks by another law than the plainest, or one that drifts as the drive
@@ -147,8 +148,8 @@ void DriveSelection::tell_as_one_form(DriveOutcome& outcome) {
                            (with_load && over != 0.0 && is_named_beside_load(effect, over)));
         any_name = any_name || name;
         // What is plain may have mended the pieces too: it is asked anew.
-        if (piece(effect) || is_constant_piece(effect) || name || is_plain(effect, with_load) ||
-            is_zero(effect, over))
+        if (piece(effect) || is_constant_piece(effect) || name ||
+            is_plain(effect, with_load || over == 1.0) || is_zero(effect, over))
           continue;
         base.effects.push_back(effect);
         base.from.push_back(static_cast<int>(e));
@@ -159,18 +160,26 @@ void DriveSelection::tell_as_one_form(DriveOutcome& outcome) {
     double noise = now.square / std::max(1.0, outcome.rows - now.size);
     for (const OneForm& set : sets)
       noise = std::min(noise, set.square / std::max(1.0, outcome.rows - set.size));
-    const OneForm* best = nullptr;
+    const OneForm *best = nullptr, *nowhere = nullptr;  // with a place or none, begins nowhere
     for (const OneForm& set : sets) {
       const int saved = now.size - set.size;
       const double more = set.square - now.square;
       constexpr double kAsWell = 4.0;  // chi-square, of one effect in place of several
       const bool fewer = set.effects.size() < outcome.effects.size();
-      const double room = saved > 0    ? by_chance(saved) * outcome.shared
-                          : saved == 0 ? (fewer ? kAsWell * outcome.shared : 0.0)
-                                       : 9.0 * saved;
+      double room = saved > 0    ? by_chance(saved) * outcome.shared
+                    : saved == 0 ? (fewer ? kAsWell * outcome.shared : 0.0)
+                                 : 9.0 * saved;
+      // What has a place stays where it leaves clearly less.
+      if (saved >= 0 && now.has_a_place() && set.begins_nowhere()) room += OneForm::kAPlace;
       if (more > noise * room) continue;
-      if (best == nullptr || set.figure(noise) < best->figure(noise)) best = &set;
+      OneForm const*& of_kind = set.begins_nowhere() ? nowhere : best;
+      if (of_kind == nullptr || set.figure(noise) < of_kind->figure(noise)) of_kind = &set;
     }
+    if (nowhere != nullptr &&
+        (best == nullptr ||
+         nowhere->figure(noise) <
+             best->figure(noise) + (best->has_a_place() ? OneForm::kAPlace : 0.0)))
+      best = nowhere;
     if (best == nullptr) continue;
     const double gain = now.figure(noise) - best->figure(noise);
     if (!pieces) {
@@ -199,7 +208,7 @@ void DriveSelection::add_sets_with_one_form(const DriveOutcome& outcome, const O
   for (std::size_t g = 0; g < candidates_.size(); ++g) {
     const DriveEffect& candidate = candidates_[g];
     if (is_taken(candidate.family) || !may_be_there(*candidate.family)) continue;
-    if (is_plain(candidate, with_load) ||
+    if (is_plain(candidate, with_load || over == 1.0) ||
         (is_zero(candidate, over) && outcome.has(candidate.family)))
       plain.push_back(candidate);
     if (!banned_[g] && is_companion(candidate, over)) companions.push_back({candidate});
@@ -213,6 +222,8 @@ void DriveSelection::add_sets_with_one_form(const DriveOutcome& outcome, const O
       std::erase_if(forms, [&](const DriveEffect& form) { return form.family->named; });
     // Beside all that is plain a place is found, and moves little where some of it is left out.
     for (DriveEffect& form : forms) {
+      // (one that holds a constant is free to go anywhere beside another one)
+      if (form.family->holds_a_constant) continue;
       std::vector<DriveEffect> effects = full;
       effects.push_back(form);
       refine_drive_shapes(context(), value_, FitRows::kTraining, effects);
@@ -232,7 +243,8 @@ void DriveSelection::add_sets_with_one_form(const DriveOutcome& outcome, const O
         if (form.family != nullptr) add(form);
         if (form.family != nullptr && form.family->holds_a_constant)
           refine_drive_shapes(context(), value_, FitRows::kTraining, set.effects);
-        if (!set.effects.empty() && fits(set)) sets.push_back(std::move(set));
+        if (!set.effects.empty() && !set.is_at_an_end() && fits(set))
+          sets.push_back(std::move(set));
       }
   }
 }

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string_view>
 
 #include "trueflank/base/ascii_letters.h"
+#include "trueflank/base/legendre.h"
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/result/describe.h"
 
@@ -60,8 +63,10 @@ class Describer {
                         "sensor or motor "
                         "constant that is not straight");
         else if (leaves_too_much(e))
-          take_the_name(found_.back(), e,
-                        "a change of the torque beside which more of its size is left unexplained");
+          take_the_name(
+              found_.back(), e,
+              "a torque that differs from the model, of which more than a quarter does not "
+              "follow any known cause");
         members_.push_back({e});
         continue;
       }
@@ -193,7 +198,9 @@ class Describer {
     Term term{.shape = {0.0, 0.0, 0.0, 0.0, 0.0}, .cos = size, .half_width = size * share};
     term.keys.emplace_back("like", found.id);
     term.text = why;
-    found.description = term.text + "; it looks like " + found.id;
+    std::string known = found.id;
+    std::replace(known.begin(), known.end(), '_', ' ');
+    found.description = term.text + "; of the known causes " + known + " comes nearest";
     found.confounded_with.insert(found.confounded_with.begin(), found.id);
     found.id = "unnamed";
     found.named = false;
@@ -267,8 +274,12 @@ class Describer {
   /// At which angle of the input the loss is most.
   [[nodiscard]] static std::string where_a_wave_is_most(const Term& term, double order) {
     const double most = deg_from_rad(std::atan2(term.sin, term.cos)) / order, every = 360.0 / order;
+    // What takes longer than a turn is counted in turns.
+    if (every > 361.0)
+      return printed(", most %.3g turns of the input", (most < 0.0 ? most + every : most) / 360.0) +
+             printed(" after its angle is 0 and every %.4g turns on", every / 360.0);
     return printed(", most at %.3g degrees of the input", most < 0.0 ? most + every : most) +
-           (every < 359.0 || every > 361.0 ? printed(" and every %.4g degrees on", every) : "");
+           (every < 359.0 ? printed(" and every %.4g degrees on", every) : "");
   }
 
   /// True of courses without a name: where they cost most and least, and how much, says their sign.
@@ -329,7 +340,42 @@ class Describer {
     found.held_out_gain =
         rms_of(s_.context, held_lost, true, false) - rms_of(s_.context, held, true, false);
     found.sure = sure_words(found.p_value, found.confounded_with);
+    if (follows_the_warmth(members) && warmed_with_the_run()) {
+      constexpr std::string_view kCertain = "as good as certain";
+      if (found.sure.starts_with(kCertain)) found.sure.replace(0, kCertain.size(), "sure");
+      found.sure +=
+          "; but the temperature changed with the course of the run, and anything else that "
+          "changed meanwhile would look the same";
+    }
     found.sentence = sentence(found, members);
+  }
+
+  /// True of a form over the temperature that has no name.
+  [[nodiscard]] bool follows_the_warmth(const std::vector<int>& members) const {
+    constexpr double kWarmth = 2.0;
+    return std::any_of(members.begin(), members.end(), [&](int e) {
+      const DriveEffect& effect = s_.all.effects()[e];
+      const DriveFamily& family = *effect.family;
+      return !family.named && ((family.over && family.over(effect.shape) == kWarmth) ||
+                               (family.piece_over && family.piece_over(effect.shape) == kWarmth));
+    });
+  }
+
+  /// True where a smooth course over the run has nearly all that the temperature changes.
+  [[nodiscard]] bool warmed_with_the_run() const {
+    constexpr double kNearlyAll = 0.9;
+    const BenchTable& table = s_.context.table;
+    if (!table.has_temperature) return false;
+    const auto n = static_cast<Eigen::Index>(table.points.size());
+    Eigen::MatrixXd course(n, 5);
+    Eigen::VectorXd warmth(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const BenchPoint& p = table.points[static_cast<std::size_t>(i)];
+      warmth[i] = p.temperature_c - table.mean_temperature_c;
+      for (int k = 0; k < 5; ++k) course(i, k) = legendre(k, 2.0 * p.taken - 1.0);
+    }
+    const double left = (warmth - course * least_squares(course, warmth)).squaredNorm();
+    return left < (1.0 - kNearlyAll) * warmth.squaredNorm();
   }
 
   /// What it is, how much, what it moves the efficiency by, what to do.
@@ -355,6 +401,7 @@ class Describer {
 
   /// What to do about it, once what would look the same is ruled out.
   [[nodiscard]] std::string action(const FoundEffect& found, const DriveFamily& family) const {
+    if (!found.named && !found.correction.empty()) return "; " + found.correction;
     if (!found.named) return "; its cause is not known: find it before anything is designed on it";
     const bool changes =
         family.into_state && family.follows == "load" &&
@@ -494,7 +541,7 @@ std::vector<std::string> runs_that_separate(const BenchTable& table,
   ToldApart told;
   for (const FoundEffect& found : effects)
     for (const std::string& other : found.confounded_with)
-      told.add(found.id, other,
+      told.add(found.named ? found.id : "what has no name here", other,
                measurement_between(found.id, find_drive_family(found.id), other,
                                    find_drive_family(other), what_the_bench_lacks(table)));
   told.say(runs, "run");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -22,6 +23,25 @@ struct DriveSelection::OneForm {
       odd += (e.family->named ? 0.0 : 1.0) +
              (e.family->is_odd && e.family->is_odd(e.shape) ? 1.0 : 0.0);
     return square / noise + kEachFigure * size + kOddShape * odd;
+  }
+  /// What a loss that begins, jumps or is largest at a speed must leave less than one that grows by
+  /// a power of it and has no place (chi-square).
+  static constexpr double kAPlace = 9.0;
+  [[nodiscard]] bool has_a_place() const {
+    return std::any_of(effects.begin(), effects.end(), [](const DriveEffect& e) {
+      return e.family->has_a_place && e.family->over(e.shape) == 1.0;
+    });
+  }
+  [[nodiscard]] bool begins_nowhere() const {
+    return !has_a_place() && std::any_of(effects.begin(), effects.end(), [](const DriveEffect& e) {
+      return e.family->begins_nowhere && e.family->begins_nowhere(e.shape);
+    });
+  }
+  /// True where one that should begin nowhere lies at the end of what it can be.
+  [[nodiscard]] bool is_at_an_end() const {
+    return std::any_of(effects.begin(), effects.end(), [](const DriveEffect& e) {
+      return e.family->begins_nowhere && !e.family->begins_nowhere(e.shape);
+    });
   }
 };
 

@@ -93,6 +93,24 @@ class DrawnBench {
     }
   }
 
+  /// Angles that go to and fro, so far to either side at the output.
+  void swing_to_and_fro(double output_deg) {
+    with_angle = true;
+    double phase = between(0.0, 6.28);
+    for (DrawnRow& row : rows) {
+      phase += between(0.1, 0.9);
+      row.input_turns = ratio * output_deg / 360.0 * std::sin(phase);
+    }
+  }
+
+  /// Temperatures of a bench that is warm or cold as it comes.
+  void any_warmth() {
+    with_temperature = true;
+    const double start = between(18.0, 28.0), span = between(15.0, 30.0);
+    for (DrawnRow& row : rows)
+      row.warm_c = 0.1 * std::round(10.0 * (start + span * between(0.0, 1.0)));
+  }
+
   /// Readings with a loss at the input, a friction in place of the model's 0.1, and an error of the
   /// output's reading.
   [[nodiscard]] loop::BenchData data(
@@ -117,8 +135,10 @@ class DrawnBench {
       read.input_nm =
           (row.forward ? row.output_nm / (ratio * f) + loss : row.output_nm * b / ratio - loss) +
           noise_input_nm * normal(random_);
-      read.output_nm = row.output_nm + output_error_nm(row) + noise_output_nm * normal(random_);
-      if (!row.forward) read.input_nm += 0.5 * noise_output_nm / ratio * normal(random_);
+      read.output_nm = row.output_nm + output_error_nm(row) +
+                       noise_factor(row) * noise_output_nm * normal(random_);
+      if (!row.forward)
+        read.input_nm += noise_factor(row) * 0.5 * noise_output_nm / ratio * normal(random_);
       if (with_temperature) read.temperature_c = row.warm_c;
       if (with_angle) read.angle_deg = 360.0 * row.input_turns;
       read.line = row.row + 2;
@@ -130,6 +150,8 @@ class DrawnBench {
   double ratio = 1.0, most_output_nm = 1.0, noise_output_nm = 0.0, noise_input_nm = 0.0,
          planet_order = 0.5333;
   bool with_angle = false, with_temperature = false;
+  /// How much noisier a row is than the bench.
+  Loss noise_factor = [](const DrawnRow&) { return 1.0; };
   std::vector<double> load_shares, rpm;
   std::vector<DrawnRow> rows;
 

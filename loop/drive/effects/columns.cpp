@@ -103,6 +103,15 @@ const char* name_of_quantity(double over) {
   return over == 0.0 ? "load" : over == 1.0 ? "speed" : "temperature";
 }
 
+std::vector<double> directions_alone(const DriveContext& context) {
+  return context.table.has(true) && context.table.has(false) ? std::vector{0.0, 1.0, 2.0}
+                                                             : std::vector{0.0};
+}
+
+std::string direction_in_words(double which) {
+  return which == 0.0 ? "" : which == 1.0 ? " while the input drives" : " while the output drives";
+}
+
 std::string key_of_quantity(double over) {
   return over == 0.0 ? "load_nm" : over == 1.0 ? "rpm" : "c";
 }

@@ -70,6 +70,14 @@ enum What { kFlanks, kDrag, kOutputReads };
 [[nodiscard]] double coordinate(const DriveContext& context, const BenchPoint& p, double over);
 [[nodiscard]] const char* name_of_quantity(double over);
 
+/// Both directions (0), or forward (1) and backward (2) alone, where both were run.
+[[nodiscard]] std::vector<double> directions_alone(const DriveContext& context);
+[[nodiscard]] inline bool is_of_direction(const BenchPoint& p, double which) {
+  return which == 0.0 || p.forward == (which == 1.0);
+}
+/// " while the input drives"; empty of both.
+[[nodiscard]] std::string direction_in_words(double which);
+
 /// "rpm" as keys end with it: "load_nm", "rpm", "c".
 [[nodiscard]] std::string key_of_quantity(double over);
 /// " N m at the input", " rpm", " C".

@@ -51,6 +51,12 @@ const std::vector<DriveFamily>& drive_library() {
         unnamed_reading_slope(),
         unnamed_settling(),
         unnamed_bend(),
+        unnamed_reading_power(),
+        unnamed_reading_near_zero(),
+        unnamed_gain_slope(),
+        unnamed_angle_course(),
+        unnamed_power(),
+        unnamed_states(),
     };
     for (DriveFamily& family : all) {
       family.shape_values.resize(family.shape_names.size());

@@ -59,6 +59,12 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_reading_slope();
 [[nodiscard]] DriveFamily unnamed_settling();
 [[nodiscard]] DriveFamily unnamed_bend();
+[[nodiscard]] DriveFamily unnamed_reading_power();
+[[nodiscard]] DriveFamily unnamed_reading_near_zero();
+[[nodiscard]] DriveFamily unnamed_gain_slope();
+[[nodiscard]] DriveFamily unnamed_angle_course();
+[[nodiscard]] DriveFamily unnamed_power();
+[[nodiscard]] DriveFamily unnamed_states();
 /// @}
 
 }  // namespace trueflank::loop::drive_effects

@@ -110,9 +110,7 @@ std::string onset_told(const DriveContext& context, const DriveShape& s, double 
   const std::string end =
       printed("%.4g", in_words_of_the_bench(context, s[kOnsetOver], far_end(context, s))) + unit;
   const Parameter &place = figures[0], &slope = figures[1], &reached = figures[2];
-  const std::string which = s[kOnsetDirection] == 0.0   ? ""
-                            : s[kOnsetDirection] == 1.0 ? " while the input drives"
-                                                        : " while the output drives";
+  const std::string which = direction_in_words(s[kOnsetDirection]);
   const std::string at = with_interval(place, unit), size = short_text(std::abs(reached.value));
   const bool more = amount > 0.0;
   std::string text;
@@ -148,7 +146,10 @@ DriveFamily unnamed_onset() {
                     {},
                     {},
                     {}};
-  f.kind = [](const DriveShape& s) { return static_cast<int>(s[kOnsetOfFlanks]); };
+  f.kind = [](const DriveShape& s) {
+    return static_cast<int>(s[kOnsetOfFlanks] + 2.0 * s[kOnsetDirection]);
+  };
+  f.has_a_place = true;
   f.beside_load = [](const DriveShape& s) {
     return s[kOnsetOfFlanks] != 0.0 ? s[kOnsetOver] : kOverNothing;
   };
@@ -164,20 +165,19 @@ DriveFamily unnamed_onset() {
   };
   f.all_shapes = [](const DriveContext& context, const DriveShape* about) {
     std::vector<DriveShape> shapes;
-    const bool both = context.table.has(true) && context.table.has(false);
     for (int over = 0; over < 3; ++over) {
       if (context.table.levels[static_cast<std::size_t>(over)] < 4) continue;
       if (about != nullptr && (*about)[kOnsetOver] != double(over)) continue;
       for (const double rises : {1.0, -1.0})
-        for (const double which : {0.0, 1.0, 2.0}) {
-          if (which != 0.0 && (!both || over != 0)) continue;
+        for (const double which : directions_alone(context)) {
           if (about != nullptr &&
               ((*about)[kOnsetRises] != rises || (*about)[kOnsetDirection] != which))
             continue;
           if (about == nullptr) {
             for (const double place : places_between_levels(context, over)) {
               shapes.push_back({double(over), place, rises, 1.0, which, 0.0});
-              if (over != 0) shapes.push_back({double(over), place, rises, 1.0, which, 1.0});
+              if (over != 0 && which == 0.0)
+                shapes.push_back({double(over), place, rises, 1.0, which, 1.0});
             }
             continue;
           }
@@ -199,7 +199,7 @@ DriveFamily unnamed_onset() {
   };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
                   double* c) {
-    if (s[kOnsetDirection] != 0.0 && p.forward != (s[kOnsetDirection] == 1.0)) {
+    if (!is_of_direction(p, s[kOnsetDirection])) {
       c[0] = 0.0;
       return;
     }

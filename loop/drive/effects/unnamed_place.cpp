@@ -74,6 +74,9 @@ std::vector<Parameter> step_figures(const DriveContext& context, const DriveShap
           figure_of("amplitude_nm", std::abs(amount))};
 }
 
+/// Of a step: below the place or above it, in one direction alone.
+constexpr std::size_t kUpToIt = 2, kStepDirection = 3;
+
 std::string step_told(const DriveContext&, const DriveShape& s, double amount,
                       const std::vector<Parameter>& figures) {
   const std::string unit = unit_of_quantity(s[0]);
@@ -83,8 +86,10 @@ std::string step_told(const DriveContext&, const DriveShape& s, double amount,
           ? "between " + printed("%.4g", at.low) + " and " + printed("%.4g", at.high) + unit
           : "of " + with_interval(at, unit);
   const std::string size = with_interval(figures[1], " N m") + (amount > 0.0 ? " more " : " less ");
-  return "a loss that changes at once: " + size + (s[2] == 0.0 ? "from" : "up to") + " a " +
-         name_of_quantity(s[0]) + " " + place + (s[2] == 0.0 ? " on" : "");
+  return "a loss" + direction_in_words(s[kStepDirection]) + " that changes at once: " + size +
+         (s[kUpToIt] == 0.0 ? "from" : "up to") + " a " + name_of_quantity(s[0]) + " " + place +
+         (s[kUpToIt] == 0.0 ? " on" : "") +
+         (s[kStepDirection] == 0.0 ? "" : ", and nothing in the other direction");
 }
 
 /// Places about one, in steps that grow, and over the whole range.
@@ -119,8 +124,11 @@ std::vector<DriveShape> all_places(const DriveContext& context, const DriveShape
         widths.push_back((*about)[2] * std::exp(wider));
     std::erase_if(widths, [](double w) { return w < 0.05 || w > 0.8; });
     for (const double place : places) {
-      if (!hump)
-        shapes.push_back({double(over), place, about == nullptr ? 0.0 : (*about)[2]});
+      if (!hump && about != nullptr)
+        shapes.push_back({double(over), place, (*about)[kUpToIt], (*about)[kStepDirection]});
+      else if (!hump)
+        for (const double which : directions_alone(context))
+          shapes.push_back({double(over), place, 0.0, which});
       else
         for (const double kind : {double(kSmooth), double(kSharp), double(kEvenBell)}) {
           if (about == nullptr && kind != double(kSmooth)) continue;
@@ -158,7 +166,7 @@ DriveFamily at_a_place(bool hump) {
       if (context.table.levels[over] < 4) continue;
       for (double place : {-0.75, -0.5, -0.25, 0.05, 0.25, 0.5, 0.75}) {
         if (!hump)
-          shapes.push_back({double(over), place, 0.0});
+          shapes.push_back({double(over), place, 0.0, 0.0});
         else
           for (double width : {0.15, 0.35}) shapes.push_back({double(over), place, width, 0.0});
       }
@@ -168,18 +176,21 @@ DriveFamily at_a_place(bool hump) {
   f.evaluate = [hump](const DriveContext& context, const BenchPoint& p, const DriveShape& shape,
                       double* c) {
     const double size = hump ? hump_at(context, p, shape)
-                        : (coordinate(context, p, shape[0]) > shape[1]) == (shape[2] == 0.0) ? 1.0
-                                                                                             : 0.0;
-    c[0] = -context.lever(p) * size;
+                        : (coordinate(context, p, shape[0]) > shape[1]) == (shape[kUpToIt] == 0.0)
+                            ? 1.0
+                            : 0.0;
+    c[0] = hump || is_of_direction(p, shape[kStepDirection]) ? -context.lever(p) * size : 0.0;
   };
   if (!hump) {
-    f.shape_names.emplace_back("up_to_it");
-    f.shape_values.emplace_back();
+    f.shape_names.insert(f.shape_names.end(), {"up_to_it", "which_direction"});
+    f.kind = [](const DriveShape& s) { return static_cast<int>(s[kStepDirection]); };
     f.kin_shapes = [](const DriveShape& s) {
-      return std::vector<DriveShape>{{s[0], s[1], 0.0}, {s[0], s[1], 1.0}};
+      return std::vector<DriveShape>{{s[0], s[1], 0.0, s[kStepDirection]},
+                                     {s[0], s[1], 1.0, s[kStepDirection]}};
     };
   }
   f.stands_alone = true;
+  f.has_a_place = true;
   f.all_shapes = [hump](const DriveContext& context, const DriveShape* about) {
     return all_places(context, about, hump);
   };
