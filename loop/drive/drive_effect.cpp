@@ -82,8 +82,11 @@ double DriveContext::speed_coordinate(const BenchPoint& p) const {
   if (least > 0.1 * most) return 2.0 * (p.speed_rpm - least) / (most - least) - 1.0;
   // Friction changes most at the low end of a wide range.
   const double start = 0.05 * most;
-  return 2.0 * std::log((start + p.speed_rpm) / (start + least)) /
-             std::log((start + most) / (start + least)) - 1.0;
+  return last_speed_coordinates.at(p.speed_rpm, [&](double speed_rpm) {
+    return 2.0 * std::log((start + speed_rpm) / (start + least)) /
+               std::log((start + most) / (start + least)) -
+           1.0;
+  });
 }
 
 double DriveContext::temperature_coordinate(const BenchPoint& p) const {
@@ -99,7 +102,9 @@ double DriveContext::quantity_at(double over, double coordinate) const {
   if (!(most > least)) return least;
   if (least > 0.1 * most) return least + part * (most - least);
   const double start = 0.05 * most;
-  return (start + least) * std::pow((start + most) / (start + least), part) - start;
+  return last_speeds.at(part, [&](double of_range) {
+    return (start + least) * std::pow((start + most) / (start + least), of_range) - start;
+  });
 }
 
 double DriveContext::coordinate_of(double over, double quantity) const {

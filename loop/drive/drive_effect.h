@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <string>
@@ -50,6 +52,28 @@ class LastEfficiency {
   double from_ = -1.0, to_ = -1.0, secant_ = 0.0;
 };
 
+/// Values of one function that were asked last: shapes that are tried ask for the same few at every
+/// row. Not for several threads.
+class LastValues {
+ public:
+  template <class Function>
+  [[nodiscard]] double at(double argument, const Function& function) {
+    for (const auto& [known, value] : kept_)
+      if (known == argument) return value;
+    const double value = function(argument);
+    kept_[next_] = {argument, value};
+    next_ = (next_ + 1) % kept_.size();
+    return value;
+  }
+
+ private:
+  struct Kept {
+    double argument = kNaN, value = kNaN;
+  };
+  std::array<Kept, 4> kept_ = {};
+  std::size_t next_ = 0;
+};
+
 /// What is found so far of all that changes friction, and of what the sensors misread: about it effects are linear.
 struct DriveState {
   double shift = 0.0;        ///< friction_coefficient less the design's
@@ -71,6 +95,7 @@ struct DriveContext {
   const std::vector<EfficiencyCurve>& mesh_curves;  ///< over one mesh's friction alone
   DriveState state;
   mutable LastEfficiency last_forward{true}, last_backward{false};
+  mutable LastValues last_speeds = {}, last_speed_coordinates = {};  ///< of this table
 
   /// The meshes' friction at a point: as designed, and as the state has it.
   [[nodiscard]] double designed_friction(const BenchPoint& p) const {

@@ -33,6 +33,13 @@ int unit_to_flip(const BenchTable& table, const BenchPoint& p) {
 
 DriveFit::DriveFit(const DriveContext& context, const Eigen::VectorXd& value,
                    std::vector<DriveEffect> effects, FitRows rows)
+    : DriveFit(context, value, std::move(effects), rows, nullptr) {}
+
+DriveFit::DriveFit(const DriveFit& known, std::vector<DriveEffect> effects)
+    : DriveFit(known.context_, known.value_, std::move(effects), known.rows_, &known) {}
+
+DriveFit::DriveFit(const DriveContext& context, const Eigen::VectorXd& value,
+                   std::vector<DriveEffect> effects, FitRows rows, const DriveFit* known)
     : context_(context), value_(value), effects_(std::move(effects)), rows_(rows) {
   int columns = 0;
   for (const DriveEffect& effect : effects_) {
@@ -48,7 +55,7 @@ DriveFit::DriveFit(const DriveContext& context, const Eigen::VectorXd& value,
                                                                                : -1);
   }
   columns_.resize(static_cast<Eigen::Index>(context_.table.points.size()), columns);
-  fill_columns();
+  fill_columns(known);
   coefficients_ = without(std::vector<bool>(effects_.size(), false));
   const Eigen::VectorXd left = value_ - columns_ * coefficients_;
   residual_square_ = (weight_.array() * left.array().square()).sum();
@@ -58,15 +65,26 @@ bool DriveFit::sees(int point) const {
   return rows_ == FitRows::kAll || context_.table.points[point].fold != 0;
 }
 
-void DriveFit::fill_columns() {
+void DriveFit::fill_columns(const DriveFit* known) {
   const auto& points = context_.table.points;
+  std::vector<std::size_t> asked;
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    if (known == nullptr || e >= known->effects_.size() ||
+        known->effects_[e].family != effects_[e].family ||
+        known->effects_[e].shape != effects_[e].shape) {
+      asked.push_back(e);
+      continue;
+    }
+    columns_.middleCols(first_column_[e], effects_[e].columns()) =
+        known->columns_.middleCols(known->first_column_[e], effects_[e].columns());
+  }
   weight_.resize(static_cast<Eigen::Index>(points.size()));
   std::vector<double> values(16);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     weight_[row] =
         sees(static_cast<int>(i)) ? 1.0 / (points[i].sigma_nm * points[i].sigma_nm) : 0.0;
-    for (std::size_t e = 0; e < effects_.size(); ++e) {
+    for (const std::size_t e : asked) {
       effects_[e].family->evaluate(context_, points[i], effects_[e].shape, values.data());
       for (int k = 0; k < effects_[e].columns(); ++k)
         columns_(row, first_column_[e] + k) = values[k];
@@ -220,6 +238,7 @@ void refine_ends(const DriveContext& context, const Eigen::VectorXd& value, FitR
                  std::vector<DriveEffect>& effects, std::size_t effect) {
   constexpr std::size_t kBegin = 2, kLength = 3;
   constexpr int kFar = 10;
+  const DriveFit begun(context, value, effects, rows);
   DriveShape& shape = effects[effect].shape;
   for (const double step : {1.0 / 360.0, 1.0 / 3600.0})
     for (const bool begin : {true, false}) {
@@ -233,7 +252,7 @@ void refine_ends(const DriveContext& context, const Eigen::VectorXd& value, FitR
         if (begin) shape[kBegin] += by;
         shape[kLength] += begin ? -by : by;
         if (shape[kLength] < step || shape[kLength] > 1.0) continue;
-        const double square = DriveFit(context, value, effects, rows).residual_square();
+        const double square = DriveFit(begun, effects).residual_square();
         if (square >= least * (1.0 - 1e-9)) continue;
         least = square;
         best = shape;
@@ -275,11 +294,12 @@ void refine_drive_shapes(const DriveContext& context, const Eigen::VectorXd& val
         const DriveShapeValue& value_of_shape = effects[e].family->shape_values[k];
         if (!value_of_shape.continuous) continue;
         const double here = effects[e].shape[k];
+        const DriveFit begun(context, value, effects, rows);
         const auto square = [&](double shape) {
           effects[e].shape[k] = shape;
-          return DriveFit(context, value, effects, rows).residual_square();
+          return DriveFit(begun, effects).residual_square();
         };
-        const double square_here = square(here);
+        const double square_here = begun.residual_square();
         const double spread = round == 0 ? 1.7 : 1.25;
         double low = here / spread, high = here * spread;
         if (value_of_shape.is_place) {

@@ -18,6 +18,8 @@ class DriveFit {
   /// `value`: measured less designed driven torque [N m] of every point.
   DriveFit(const DriveContext& context, const Eigen::VectorXd& value,
            std::vector<DriveEffect> effects, FitRows rows);
+  /// With the columns of a fit in the same context where effects are the same as in it.
+  DriveFit(const DriveFit& known, std::vector<DriveEffect> effects);
 
   [[nodiscard]] const DriveContext& context() const { return context_; }
   [[nodiscard]] const std::vector<DriveEffect>& effects() const { return effects_; }
@@ -46,7 +48,9 @@ class DriveFit {
   [[nodiscard]] double degrees() const;
 
  private:
-  void fill_columns();
+  DriveFit(const DriveContext& context, const Eigen::VectorXd& value,
+           std::vector<DriveEffect> effects, FitRows rows, const DriveFit* known);
+  void fill_columns(const DriveFit* known);
   [[nodiscard]] Eigen::MatrixXd shape_slopes() const;
   /// Change of the explained torque per unit of every coefficient. A friction's column is the secant
   /// from the design, and moves with it: efficiencies bend.

@@ -9,6 +9,18 @@
 
 namespace trueflank::loop {
 
+namespace {
+
+/// Effects have one column or two: written out, as calls that fill or copy memory take longer.
+void put(const double* values, int count, double* to) {
+  to[0] = values[0];
+  if (count > 1) to[1] = values[1];
+  for (int k = 2; k < count; ++k) to[k] = values[k];
+}
+constexpr std::array<double, 8> kNoColumns{};
+
+}  // namespace
+
 FlankChoice flank_of(const FlankGeometry& geometry, const Place& place) {
   if (place.surface != Surface::kFlank) return FlankChoice::kBoth;
   return place.side == flank_side(Flank::kLeft, geometry.gear().kind) ? FlankChoice::kLeft
@@ -44,37 +56,33 @@ PreparedEffect::PreparedEffect(const FlankGeometry& geometry, Effect effect)
     double* const factors = factors_.data() + static_cast<std::size_t>(tooth - 1) * columns;
     effect_.family->form_times_tooth->tooth(geometry, tooth, effect_.shape, factors);
     is_on_tooth_.push_back(
-        std::any_of(factors, factors + columns, [](double f) { return f != 0.0; }));
+        std::any_of(factors, factors + columns, [](double f) { return f != 0.0; }) ? 1 : 0);
   }
 }
 
 void PreparedEffect::evaluate(const Place& place, double* values) const {
   if (factors_.empty()) {
-    effect_.evaluate(geometry_, place, values);
+    if (effect_.acts_on_flank_of(geometry_, place))
+      effect_.family->evaluate(geometry_, place, effect_.shape, values);
+    else
+      put(kNoColumns.data(), columns_, values);
     return;
   }
   const auto tooth = static_cast<std::size_t>(place.tooth - 1);
-  if (place.surface != Surface::kFlank || !is_on_tooth_[tooth] ||
+  if (place.surface != Surface::kFlank || is_on_tooth_[tooth] == 0 ||
       !effect_.acts_on_flank_of(geometry_, place)) {
-    std::fill_n(values, columns_, 0.0);
+    put(kNoColumns.data(), columns_, values);
     return;
   }
+  put_form_times_tooth(place, values);
+}
+
+void PreparedEffect::put_form_times_tooth(const Place& place, double* values) const {
+  const auto tooth = static_cast<std::size_t>(place.tooth - 1);
   const double* const factors = factors_.data() + tooth * static_cast<std::size_t>(columns_);
   const double form = effect_.family->form_times_tooth->form(geometry_, place, effect_.shape);
   for (int k = 0; k < columns_; ++k) values[k] = factors[k] != 0.0 ? factors[k] * form : 0.0;
 }
-
-namespace {
-
-/// Effects have one column or two: written out, as calls that fill or copy memory take longer.
-void put(const double* values, int count, double* to) {
-  to[0] = values[0];
-  if (count > 1) to[1] = values[1];
-  for (int k = 2; k < count; ++k) to[k] = values[k];
-}
-constexpr std::array<double, 8> kNoColumns{};
-
-}  // namespace
 
 EffectsTogether::EffectsTogether(std::span<const Effect> effects) : effects_(effects) {
   for (std::size_t e = 0; e < effects.size(); ++e) {

@@ -196,13 +196,31 @@ class PreparedEffect {
   PreparedEffect(const FlankGeometry& geometry, Effect effect);
   [[nodiscard]] int columns() const { return columns_; }
   void evaluate(const Place& place, double* values) const;
+  /// @name The same in two steps, of a place of which is known where it is
+  /// @{
+  /// False where all columns are 0. `tooth`: on whose flank it is, and `flank` (flank_of); 0 and
+  /// both: on none.
+  [[nodiscard]] bool acts_on(int tooth, FlankChoice flank) const {
+    if (effect_.flank != FlankChoice::kBoth && effect_.flank != flank) return false;
+    return factors_.empty() ||
+           (tooth > 0 && is_on_tooth_[static_cast<std::size_t>(tooth - 1)] != 0);
+  }
+  void evaluate_where_it_acts(const Place& place, double* values) const {
+    if (factors_.empty())
+      effect_.family->evaluate(geometry_, place, effect_.shape, values);
+    else
+      put_form_times_tooth(place, values);
+  }
+  /// @}
 
  private:
+  void put_form_times_tooth(const Place& place, double* values) const;
+
   const FlankGeometry& geometry_;
   Effect effect_;
   int columns_;
   std::vector<double> factors_;    ///< of the first tooth, the second, ...; empty: no such columns
-  std::vector<bool> is_on_tooth_;  ///< where not all are 0
+  std::vector<char> is_on_tooth_;  ///< where not all are 0
 };
 
 /// Effects of one family whose columns are asked for side by side: the same as of each by itself but

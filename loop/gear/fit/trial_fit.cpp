@@ -30,17 +30,17 @@ TrialFit::TrialFit(const FlankGeometry& geometry, const SharedTable& shared, con
     : geometry_(geometry), shared_(shared), table_(shared_), effects_(std::move(effects)) {
   const Observations& table = table_;
   trace_weight_.assign(static_cast<std::size_t>(table.traces), 0.0);
+  std::vector<std::uint32_t> rows_asked;
   for (std::size_t i = 0; i < table.rows.size(); i += stride) {
     if (patches.patch_of_row[i] < 0) continue;
     const auto& patch = patches.patches[static_cast<std::size_t>(patches.patch_of_row[i])];
     const double weight = patch.weight / patch.count;
     const int trace = table.rows[i].trace;
-    all_rows_.rows.push_back(static_cast<std::uint32_t>(i));
+    rows_asked.push_back(static_cast<std::uint32_t>(i));
     rows_.push_back({static_cast<std::uint32_t>(i), trace, std::sqrt(weight)});
     if (trace >= 0) trace_weight_[static_cast<std::size_t>(trace)] += weight;
   }
-  all_rows_.key = EffectValues::key_of(all_rows_.rows);
-  if (!table.points_mm.empty()) find_places_of_scan();
+  all_rows_ = row_set(std::move(rows_asked));
   find_runs();
   find_alike(cells);
   const NuisanceColumns nuisance(geometry, table);
@@ -84,20 +84,24 @@ TrialFit::TrialFit(const FlankGeometry& geometry, const SharedTable& shared, con
   solve();
 }
 
-/// Of all rows, where each has one.
-void TrialFit::find_places_of_scan() {
-  std::vector<OnFlank> places;
-  for (const std::uint32_t r : all_rows_.rows) {
-    const Observation& row = table_.rows[r];
-    if (row.places != 1 || row.weight != 1.0) return;
+TrialFit::RowSet TrialFit::row_set(std::vector<std::uint32_t> rows) const {
+  RowSet set{.rows = std::move(rows), .key = 0, .places = {}, .of_scan = !table_.points_mm.empty()};
+  set.key = EffectValues::key_of(set.rows);
+  set.places.resize(set.rows.size());
+  for (std::size_t i = 0; i < set.rows.size(); ++i) {
+    const Observation& row = table_.rows[set.rows[i]];
+    PlaceOfRow& of_row = set.places[i];
+    of_row.is_one = row.places == 1 && row.weight == 1.0;
+    set.of_scan = set.of_scan && of_row.is_one;
+    if (!of_row.is_one) continue;
+    of_row.place = row.first_place;
     const Place& place = table_.places[row.first_place];
-    if (place.surface != Surface::kFlank)
-      places.push_back({});
-    else
-      places.push_back(
-          {place.tooth, flank_of(geometry_, place), static_cast<std::int8_t>(place.side)});
+    if (place.surface != Surface::kFlank) continue;
+    of_row.tooth = place.tooth;
+    of_row.flank = flank_of(geometry_, place);
+    of_row.side = place.side;
   }
-  all_rows_.places = std::move(places);
+  return set;
 }
 
 /// Where it is worth it: of traces, and of scans in cells.
@@ -111,7 +115,7 @@ void TrialFit::find_alike(FlankCells cells) {
   kind_weight_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(alike.first.size()));
   for (std::size_t i = 0; i < rows_.size(); ++i)
     kind_weight_[static_cast<Eigen::Index>(alike.kind[i])] += rows_[i].root * rows_[i].root;
-  first_of_kinds_ = {alike.first, EffectValues::key_of(alike.first)};
+  first_of_kinds_ = row_set(alike.first);
   alike_ = std::move(alike);
   if (has_exact_kinds()) find_places_on_flanks();
   // Where kinds are few, their products less zeros are one matrix.
@@ -199,7 +203,7 @@ EffectValues::Values TrialFit::values_at(const Effect& effect, const RowSet& at)
   if (EffectValues::Values known = shared_.values().find(effect, at.key)) return known;
   const auto values = std::make_shared<Eigen::MatrixXd>(
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(at.rows.size()), effect.columns()));
-  if (effect.family->product_of_courses.values > 0 && !at.places.empty())
+  if (effect.family->product_of_courses.values > 0 && at.of_scan)
     put_product_of_courses(effect, at, *values);
   else
     put_values(effect, at, *values);
@@ -207,16 +211,24 @@ EffectValues::Values TrialFit::values_at(const Effect& effect, const RowSet& at)
   return values;
 }
 
+/// `columns` are zeros: most forms of some teeth or of one flank leave most rows alone.
 void TrialFit::put_values(const Effect& effect, const RowSet& at, Eigen::MatrixXd& columns) const {
   const PreparedEffect prepared(geometry_, effect);
   const int count = prepared.columns();
   double one[8];
-  for (std::size_t i = 0; i < at.rows.size(); ++i) {
+  for (std::size_t i = 0; i < at.places.size(); ++i) {
+    const PlaceOfRow& of_row = at.places[i];
+    const auto r = static_cast<Eigen::Index>(i);
+    if (of_row.is_one) {
+      if (!prepared.acts_on(of_row.tooth, of_row.flank)) continue;
+      prepared.evaluate_where_it_acts(table_.places[of_row.place], one);
+      for (int k = 0; k < count; ++k) columns(r, k) += one[k];
+      continue;
+    }
     const Observation& row = table_.rows[at.rows[i]];
     for (std::uint32_t p = 0; p < row.places; ++p) {
       prepared.evaluate(table_.places[row.first_place + p], one);
-      for (int k = 0; k < count; ++k)
-        columns(static_cast<Eigen::Index>(i), k) += row.weight * one[k];
+      for (int k = 0; k < count; ++k) columns(r, k) += row.weight * one[k];
     }
   }
 }
@@ -236,7 +248,7 @@ void TrialFit::put_product_of_courses(const Effect& effect, const RowSet& at,
     of_teeth->tooth(geometry_, tooth, effect.shape, factors.col(tooth).data());
   for (std::size_t i = 0; i < at.places.size(); ++i) {
     const auto r = static_cast<Eigen::Index>(i);
-    const OnFlank& place = at.places[i];
+    const PlaceOfRow& place = at.places[i];
     if (place.side == 0 || (*profile)(r) == 0.0) continue;
     if (effect.flank != FlankChoice::kBoth && effect.flank != place.flank) continue;
     const double form = (opposite ? place.side : 1) * (*profile)(r) * (*face)(r);

@@ -75,22 +75,25 @@ class TrialFit {
   };
   /// Normal equations of all but one effect.
   struct Others;
-  void find_places_of_scan();
   void find_alike(FlankCells cells);
   [[nodiscard]] bool is_of_kinds(const Effect& effect) const;
   [[nodiscard]] bool has_exact_kinds() const { return alike_ && table_.points_mm.empty(); }
-  /// Where a row's one place is.
-  struct OnFlank {
-    std::int32_t tooth = 0;
+  /// Where a row's place is, of a row that has one with a weight of 1.
+  struct PlaceOfRow {
+    std::uint32_t place = 0;
+    std::int32_t tooth = 0;  ///< 0: on no flank
     FlankChoice flank = FlankChoice::kBoth;
     std::int8_t side = 0;  ///< 0: on no flank
+    bool is_one = false;   ///< false: it has several, or another weight
   };
   /// Rows of the table, and how they are known to its EffectValues.
   struct RowSet {
     std::vector<std::uint32_t> rows;
     std::uint64_t key = 0;
-    std::vector<OnFlank> places;  ///< of a scan: each row has one place, with a weight of 1
+    std::vector<PlaceOfRow> places;
+    bool of_scan = false;  ///< each row has one place
   };
+  [[nodiscard]] RowSet row_set(std::vector<std::uint32_t> rows) const;
   [[nodiscard]] EffectValues::Values values_at(const Effect& effect, const RowSet& at) const;
   void put_values(const Effect& effect, const RowSet& at, Eigen::MatrixXd& columns) const;
   void put_product_of_courses(const Effect& effect, const RowSet& at,
