@@ -87,7 +87,17 @@ LoopResult result_of(const FlankGeometry& geometry, const PartModel& model, cons
   result.notes = model.table->notes;
   for (std::string& note : notes_on(still_louder(geometry, model.table, model.patches, left_um)))
     result.notes.push_back(std::move(note));
-  for (std::string& note : notes_on_far_values(geometry, *model.table.operator->(), left_um))
+  const auto told_um = [&](const Place& place) {
+    double sum = 0.0, columns[8];
+    for (std::size_t e = 0; e < fit.effects().size(); ++e) {
+      fit.effects()[e].evaluate(geometry, place, columns);
+      for (int k = 0; k < fit.effects()[e].columns(); ++k)
+        sum += fit.coefficients()[fit.first_column(static_cast<int>(e)) + k] * columns[k];
+    }
+    return sum;
+  };
+  for (std::string& note :
+       notes_on_far_values(geometry, *model.table.operator->(), left_um, told_um))
     result.notes.push_back(std::move(note));
   const auto none = plain_fit(model)->errors({});
   const auto all = fit.errors(std::vector<bool>(model.effects.size(), true));

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include "tests/loop/made_gears.h"
 
@@ -55,6 +57,29 @@ TEST(FarValues, AreToldWithToothPlaceAndHeight) {
       EXPECT_NE(notes.find("um low"), std::string::npos) << notes;
       EXPECT_FALSE(has_name(result)) << list(result);
     }
+}
+
+// The last values of steep reliefs, which were left out before the fit, were told as dirt.
+TEST(FarValues, AtTheEndOfAReliefThatIsToldAreNone) {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    const MadeGear gear = spur(20 + static_cast<int>(seed));
+    const auto relieved = grown([](auto&, const FlankSpot& s, auto&) {
+      const double past = std::max(0.0, 0.5 * (s.u + 1.0) - 0.62) / 0.38;
+      return -10.0 * past * past;
+    });
+    InspectionOptions options = all_teeth(seed);
+    options.noise_um = 0.8;
+    options.points = 24;
+    loop::InspectionData data = inspection_of(gear, {relieved}, options);
+    const auto plain = close(gear, data);
+    EXPECT_NE(find(plain, "tip_relief"), nullptr) << list(plain);
+    EXPECT_EQ(notes_of(plain).find("lies "), std::string::npos) << notes_of(plain);
+    // a true one is told beside the relief
+    data.rows[trace_of(data, loop::RecordKind::kProfile, 9, Flank::kRight)[8]].deviation_um += 11.0;
+    const auto wild = close(gear, data);
+    EXPECT_NE(notes_of(wild).find("one value of tooth 9, right flank, profile"), std::string::npos)
+        << notes_of(wild);
+  }
 }
 
 TEST(FarValues, OfNoiseAreNone) {

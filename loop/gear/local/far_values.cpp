@@ -39,6 +39,24 @@ std::string note_on(const FlankGeometry& geometry, const FarValues& one) {
          "finer steps";
 }
 
+/// True where the effects fall off towards a value from its neighbours on the trace, as it does.
+bool is_told(const Observations& table, const Trace& trace, const Observations::LeftOut& value,
+             double at_mm, const std::function<double(const Place&)>& told_um) {
+  constexpr double kPart = 1.0 / 3.0;
+  constexpr std::size_t kNeighbours = 6;
+  Trace nearest = trace;
+  std::sort(nearest.begin(), nearest.end(), [&](const auto& a, const auto& b) {
+    return std::abs(a.first - at_mm) < std::abs(b.first - at_mm);
+  });
+  if (nearest.size() > kNeighbours) nearest.resize(kNeighbours);
+  if (nearest.empty()) return false;
+  double beside_um = 0.0;
+  for (const auto& [at, row] : nearest)
+    beside_um += told_um(table.place(table.rows[row])) / static_cast<double>(nearest.size());
+  const double falls_um = told_um(value.place) - beside_um;
+  return falls_um * value.off_um > 0.0 && std::abs(falls_um) > kPart * std::abs(value.off_um);
+}
+
 /// Runs of values far off to one side.
 void add_far_values(const Observations& table, const Trace& trace, const std::vector<float>& row_um,
                     double error_um, std::vector<FarValues>& found) {
@@ -68,18 +86,23 @@ void add_far_values(const Observations& table, const Trace& trace, const std::ve
 
 std::vector<std::string> notes_on_far_values(const FlankGeometry& geometry,
                                              const Observations& table,
-                                             const std::vector<float>& row_um) {
+                                             const std::vector<float>& row_um,
+                                             const std::function<double(const Place&)>& told_um) {
   constexpr std::size_t kMostTold = 3;
   // Traces of one flank at one place.
   std::map<std::array<long long, 4>, Trace> traces;
+  const auto key_of = [](ObservationKind kind, int source, const Place& place) {
+    return std::array<long long, 4>{
+        static_cast<long long>(kind), source, place.side * place.tooth,
+        std::llround(1e3 * (kind == ObservationKind::kProfile ? place.z_mm : place.roll_mm))};
+  };
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const Observation& row = table.rows[i];
     const bool profile = row.kind == ObservationKind::kProfile;
     if (!(profile || row.kind == ObservationKind::kHelix) || !std::isfinite(row_um[i])) continue;
     const Place& place = table.place(row);
-    traces[{static_cast<long long>(row.kind), row.source, place.side * place.tooth,
-            std::llround(1e3 * (profile ? place.z_mm : place.roll_mm))}]
-        .emplace_back(profile ? place.roll_mm : place.z_mm, i);
+    traces[key_of(row.kind, row.source, place)].emplace_back(profile ? place.roll_mm : place.z_mm,
+                                                             i);
   }
   std::vector<float> all;
   std::erase_if(traces, [](const auto& trace) {
@@ -97,9 +120,20 @@ std::vector<std::string> notes_on_far_values(const FlankGeometry& geometry,
     add_far_values(table, trace, row_um, std::max(usual_um, robust_sigma(own)), found);
   }
   if (usual_um > 0.0)
-    for (const Observations::LeftOut& value : table.left_out)
+    for (const Observations::LeftOut& value : table.left_out) {
+      const bool profile = value.kind == ObservationKind::kProfile;
+      const auto told = [&](const auto& trace) {
+        return std::array{trace.first[0], trace.first[2], trace.first[3]} ==
+                   std::array{static_cast<long long>(value.kind),
+                              static_cast<long long>(value.place.side * value.place.tooth),
+                              key_of(value.kind, 0, value.place)[3]} &&
+               is_told(table, trace.second, value, profile ? value.place.roll_mm : value.place.z_mm,
+                       told_um);
+      };
+      if (std::any_of(traces.begin(), traces.end(), told)) continue;
       found.push_back(
           {value.kind, value.place, value.off_um, 1, std::abs(value.off_um) / usual_um});
+    }
   std::stable_sort(found.begin(), found.end(),
                    [](const FarValues& a, const FarValues& b) { return a.times > b.times; });
   std::vector<std::string> notes;

@@ -200,18 +200,22 @@ std::vector<std::vector<Effect>> with_places(const PartModel& model,
   seek(forms);
   if (found.empty()) return found;
   const EffectShape best = found.front().back().shape;
-  const auto about_there = [&](double face) {
+  // Edges by themselves: before they are moved to their places a step may come nearer to a bump
+  // than any bump does.
+  const auto about_there = [&](double face, bool edges) {
     forms.clear();
     for (const FlankCourse& course : coarse_courses(model.geometry, face))
-      for (const double radial : {0.0, 1.0})
-        for (const double times : {0.7, 1.0})
-          forms.push_back(face == 0.0
-                              ? body_place(best[0], radial, best[2], times * best[3], course)
-                              : body_place(best[0], radial, best[2], times * best[3], {}, course));
-    seek(forms);
+      if ((course.kind == FlankCourse::kStep) == edges)
+        for (const double radial : {0.0, 1.0})
+          for (const double times : {0.7, 1.0})
+            forms.push_back(
+                face == 0.0 ? body_place(best[0], radial, best[2], times * best[3], course)
+                            : body_place(best[0], radial, best[2], times * best[3], {}, course));
+    if (!forms.empty()) seek(forms);
   };
-  if (asked.along.profile) about_there(0.0);
-  if (asked.along.face) about_there(1.0);
+  if (asked.along.profile) about_there(0.0, false);
+  if (asked.along.face)
+    for (const bool edges : {false, true}) about_there(1.0, edges);
   return found;
 }
 
