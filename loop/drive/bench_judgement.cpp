@@ -17,6 +17,9 @@ constexpr double kNearZero = 0.05;
 constexpr double kMostSlips = 0.1;
 /// An apparent efficiency beyond these is no loss but another unit.
 constexpr double kUnitHigh = 30.0, kUnitLow = 0.003;
+/// No sensor of a drive measures less, in N m: a side that never has more was not loaded, or its
+/// sensor is dead.
+constexpr double kLeastTorque = 1e-9;
 /// From this ratio on interchanged columns are further off than any loss.
 constexpr double kLeastRatio = 1.6;
 
@@ -154,6 +157,30 @@ Errors settle_signs(BenchData& data, std::vector<std::string>& notes) {
              .file = data.files[file],
              .line = odd.front()->line});
       }
+  return errors;
+}
+
+Errors refuse_no_torque(const BenchData& data) {
+  Errors errors;
+  for (const bool forward : {true, false})
+    for (const Side& side : kSides) {
+      const BenchRow* first = nullptr;
+      double most = 0.0;
+      for (const BenchRow& row : data.rows) {
+        if (row.forward != forward) continue;
+        if (first == nullptr) first = &row;
+        most = std::max(most, std::abs(row.*side.torque));
+      }
+      if (first == nullptr || most >= kLeastTorque) continue;
+      errors.push_back({.code = ErrorCode::kOutOfRange,
+                        .message = std::string("every ") + (forward ? "forward" : "backward") +
+                                   " row says a torque of 0: no power flows through the drive",
+                        .key = side.column,
+                        .value = text(first->*side.torque),
+                        .remedy = "rows with a load on both sides, in newton metres",
+                        .file = data.files[static_cast<std::size_t>(first->file)],
+                        .line = first->line});
+    }
   return errors;
 }
 

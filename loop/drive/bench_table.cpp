@@ -99,6 +99,8 @@ class TableMaker {
     table_.notes = data_.notes;
     if (Errors errors = settle_signs(data_, table_.notes); !errors.empty())
       return fail_all(std::move(errors));
+    if (Errors errors = refuse_no_torque(data_); !errors.empty())
+      return fail_all(std::move(errors));
     Impossible swapped = Impossible::kNothing;
     if (Errors errors = judge_units(model_, data_, swapped); !errors.empty())
       return fail_all(std::move(errors));
@@ -111,13 +113,6 @@ class TableMaker {
                         .remedy = "at least " + std::to_string(kFewestRows) +
                                   "; for a few numbers the quantity,value form",
                         .file = data_.files.empty() ? "" : data_.files.front()}});
-    if (std::none_of(table_.points.begin(), table_.points.end(),
-                     [](const BenchPoint& p) { return p.load_nm > 0.0; }))
-      return fail_all(
-          {{.code = ErrorCode::kOutOfRange,
-            .message = "every row of the bench data says a torque of 0: nothing is lost at no load",
-            .remedy = "rows under load",
-            .file = data_.files.empty() ? "" : data_.files.front()}});
     SmoothFit fit = smooth_fit(table_.points);
     if (leave_out_outliers(fit)) fit = smooth_fit(table_.points);
     for (std::size_t i = 0; i < table_.points.size(); ++i) {

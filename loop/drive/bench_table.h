@@ -73,16 +73,17 @@ struct BenchTable {
 
 inline constexpr int kBenchFolds = 8;
 
-/// Judges the rows and puts them into the table. Swapped columns or directions are put right in it and
-/// told by `impossible`.
-/// Errors: torques in another unit than N m or in mixed units, signs that change inside a direction,
-/// fewer than 8 rows.
+/// Judges the rows and puts them into the table. Swapped columns or directions are put right in it
+/// and told by `impossible`. Errors: torques in another unit than N m or in mixed units, signs that
+/// change inside a direction, a side without any torque, fewer than 8 rows.
 [[nodiscard]] ResultAll<BenchTable> make_bench_table(const DriveModel& model, const BenchData& data);
 
 /// @name Steps of it, for its own use and tests
 /// @{
 /// Magnitudes: a side whose torques all come with a minus is turned, and told. Errors: mixed signs.
 [[nodiscard]] Errors settle_signs(BenchData& data, std::vector<std::string>& notes);
+/// Errors: a direction in which the input or the output never has a torque.
+[[nodiscard]] Errors refuse_no_torque(const BenchData& data);
 /// Errors: another unit than N m, or mixed ones. Tells swapped columns and directions.
 [[nodiscard]] Errors judge_units(const DriveModel& model, const BenchData& data, Impossible& swapped);
 /// Residual of a smooth fit of each direction over load, speed and temperature, which knows nothing of

@@ -135,9 +135,23 @@ void take_trend_off(Eigen::VectorXd& course) {
     course -= forms.col(k).dot(course) / forms.col(k).squaredNorm() * forms.col(k);
 }
 
+/// Long waves that every trace has for itself count as the short ones do.
+void take_smooth_forms_off(std::vector<double>& level) {
+  const std::size_t from = level.size() / 3;
+  const double error =
+      median(std::vector<double>(level.begin() + static_cast<std::ptrdiff_t>(from), level.end()));
+  for (std::size_t k = 0; k < from; ++k) level[k] = std::min(level[k], error);
+}
+
 /// Variance of traces over the same wavelengths; some may be measured worse than others. Where
-/// they have trends of their own, what errors have of these is taken from the wavelengths beside.
-Variance variance_of_traces(std::vector<Whole>& wholes, double lost, bool own_trends) {
+/// they have trends or smooth forms of their own, what errors have of these is taken from the
+/// wavelengths beside.
+struct OwnCourses {
+  bool trends = false, smooth = false;
+};
+Variance variance_of_traces(std::vector<Whole>& wholes, double lost, const OwnCourses& own) {
+  // (what a trend taken off smooth forms leaves would show at every length)
+  const bool own_trends = own.trends && !own.smooth;
   constexpr int kBeside = 2;
   constexpr std::size_t kOfTrends = 2;
   Pieces pieces = pieces_of(wholes);
@@ -171,6 +185,7 @@ Variance variance_of_traces(std::vector<Whole>& wholes, double lost, bool own_tr
     std::fill_n(
         level.begin(), kOfTrends,
         median(std::vector<double>(level.begin() + kOfTrends, level.begin() + 2 * kOfTrends + 1)));
+  if (own.smooth) take_smooth_forms_off(level);
   return of_louder(lost * sum_without_lines(level) / (n - 1), loud, pieces.values, pieces.held_out);
 }
 
@@ -277,8 +292,10 @@ Variance variance_of(ObservationKind kind, Gathered& data, const WhatIsLeft& lef
                                                           : take_common_off(flank, 1, places);
     std::vector<Whole> wholes;
     for (Whole* whole : flank) wholes.push_back(std::move(*whole));
-    const bool own_trends = kind == ObservationKind::kProfile ? left.own_profiles : left.own_leads;
-    const Variance variance = variance_of_traces(wholes, lost, own_trends);
+    const OwnCourses own = kind == ObservationKind::kProfile
+                               ? OwnCourses{left.own_profiles, left.smooth_profiles}
+                               : OwnCourses{left.own_leads, left.smooth_leads};
+    const Variance variance = variance_of_traces(wholes, lost, own);
     if (!(variance.all > 0.0)) return data.even(plain);
     sum.add(variance, count);
   }

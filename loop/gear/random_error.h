@@ -15,7 +15,9 @@ struct WhatIsLeft {
   /// Flanks have courses of their own, over the profile or over the face: any in scans, a line or a
   /// bow in traces.
   bool own_profiles = false, own_leads = false;
+  bool smooth_profiles = false, smooth_leads = false;  ///< of many waves, in traces
   OwnPlaces places = {};  ///< in an index: both flanks tell them
+  std::vector<OwnWaves> own_waves = {};  ///< on every flank of a scan, each in its phase
 };
 
 /// Sums over the values of one kind of record [um^2]: residuals, and the random error among them.

@@ -15,6 +15,7 @@
 #include "trueflank/loop/discovery/course_scan.h"
 #include "trueflank/loop/discovery/loudness.h"
 #include "trueflank/loop/discovery/order_statistics.h"
+#include "trueflank/loop/discovery/own_relief.h"
 #include "trueflank/loop/discovery/trend_scan.h"
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
@@ -188,6 +189,26 @@ class RemainderSearch {
     found_.insert(found_.end(), around.begin(), around.end());
   }
 
+  /// Traces of which each has a smooth form of its own: how large these are, 0 where there are
+  /// none.
+  double look_for_own_relief(const CourseKey& key, const Courses& courses, const CourseSets& all) {
+    ++looks_;
+    const std::optional<OwnRelief> relief = own_relief(all.sets);
+    if (!relief || relief->p_value > kRemainderLevel) return 0.0;
+    add_text(
+        relief->p_value,
+        printed("every trace over the %s has a smooth form of its own, in waves of %.3g mm and "
+                "more%s, with a "
+                "standard deviation of %.3g um, as of a rough or a hammered surface, or a probe "
+                "that drifts",
+                key.face ? "face" : "profile", std::abs(courses.high - courses.low) / relief->waves,
+                key.face ? "" : " (of roll length)", relief->spread),
+        relief->spread);
+    found_.back().own = key.face ? OwnCourse::kLead : OwnCourse::kProfile;
+    found_.back().own_relief = true;
+    return relief->spread;
+  }
+
   /// Traces that lean or bend each by itself: flanks that differ, or a probe that drifts.
   void look_for_own_trend(const CourseKey& key, const CourseSets& all) {
     ++looks_;
@@ -210,9 +231,20 @@ class RemainderSearch {
     const CourseSets all = sets_of(courses, places);
     if (all.sets.empty()) return;
     looks_ += 3;  // in common, waves of their own, spots
-    if (!scan) look_for_own_trend(key, all);
+    const double relief_um = scan ? 0.0 : look_for_own_relief(key, courses, all);
+    if (!scan && relief_um == 0.0) look_for_own_trend(key, all);
+    // What so many forms happen to have in common, or one has at a place.
+    constexpr double kOfRelief = 4.0;
+    const auto is_of_relief = [&](const CourseFinding& f) {
+      const double of_each = kOfRelief * relief_um;
+      if (f.kind == CourseFinding::Kind::kSpot) return std::abs(f.amount) < of_each;
+      Eigen::Index fewest = all.sets.front().cols();
+      for (const Eigen::MatrixXd& set : all.sets) fewest = std::min(fewest, set.cols());
+      return std::abs(f.amount) < of_each / std::sqrt(static_cast<double>(fewest));
+    };
     const RoughFlanks rough = scan ? RoughFlanks{} : rough_flanks_of(key, courses);
     for (const CourseFinding& found : findings_along(key, all, places)) {
+      if (is_of_relief(found)) continue;
       if (found.kind == CourseFinding::Kind::kSpot) {
         if (scan || which_ != RemainderOf::kAll) continue;
         const int side = all.side_of[static_cast<std::size_t>(found.set)];
@@ -399,6 +431,8 @@ class RemainderSearch {
   void look_across(const FlankSpectrum& spectrum) {
     if (table_.points_mm.empty()) return;
     looks_ += 3;
+    tell_own_waves(spectrum.own_waves);  // (so much surer than others are asked to be that it is no
+                                         // look of theirs)
     if (const auto& wave = spectrum.waves)
       add_form("unnamed_marks", flank_choice(geometry_, wave->side > 0 ? 1 : 0),
                {wave->waves_profile, wave->waves_face, wave->order}, wave->p_value,
@@ -410,9 +444,7 @@ class RemainderSearch {
                        apart->spread_um),
                apart->spread_um);
     if (const auto& forms = spectrum.forms) {
-      const double long_mm =
-          forms->face ? geometry_.face_width_mm()
-                      : std::abs(geometry_.tip_form_roll_mm() - geometry_.root_form_roll_mm());
+      const double long_mm = forms->face ? geometry_.face_width_mm() : involute_mm();
       add_text(
           forms->p_value,
           printed("every flank has a form of its own over the %s, alike all over the %s: waves of "
@@ -422,6 +454,37 @@ class RemainderSearch {
           forms->spread_um);
       found_.back().own = forms->face ? OwnCourse::kLead : OwnCourse::kProfile;
     }
+  }
+
+  /// Waves that every flank has in a phase of its own: no columns, but no noise either.
+  void tell_own_waves(const std::vector<OwnWaves>& waves) {
+    constexpr double kAlike = 0.08;
+    const auto alike = [](double a, double b) { return std::abs(a - b) < kAlike * std::max(a, b); };
+    const bool both = waves.size() == 2 && alike(waves[0].waves_profile, waves[1].waves_profile) &&
+                      alike(std::abs(waves[0].waves_face), std::abs(waves[1].waves_face)) &&
+                      alike(waves[0].amplitude_um, waves[1].amplitude_um);
+    for (const OwnWaves& wave : waves) {
+      const bool rises = wave.waves_profile * wave.waves_face < 0.0;
+      const bool mirrored = both && rises != (waves[1].waves_profile * waves[1].waves_face < 0.0);
+      std::string text = printed(
+          "waves across the flanks, %.3g mm of roll length each over the profile and %.3g mm over "
+          "the face, ",
+          involute_mm() / wave.waves_profile,
+          geometry_.face_width_mm() / std::abs(wave.waves_face));
+      const bool left = flank_choice(geometry_, wave.side) == FlankChoice::kLeft;
+      text += rises ? "rising towards the tip" : "falling towards the tip";
+      if (mirrored)
+        text += printed(" on %s flanks and %s on %s ones", left ? "left" : "right",
+                        rises ? "falling" : "rising", left ? "right" : "left");
+      text += printed(", in a phase of its own on every flank, %.3g um", wave.amplitude_um);
+      if (!both) text += left ? ", left flanks" : ", right flanks";
+      add_text(wave.p_value, std::move(text), wave.amplitude_um);
+      found_.back().own_waves = both ? waves : std::vector{wave};
+      if (both) break;
+    }
+  }
+  [[nodiscard]] double involute_mm() const {
+    return std::abs(geometry_.tip_form_roll_mm() - geometry_.root_form_roll_mm());
   }
 
   [[nodiscard]] RotationWave wave_over_rotation() const {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "trueflank/loop/gear/local/flank_waves.h"
 #include "trueflank/loop/gear/local/patches.h"
 
 namespace trueflank::loop {
@@ -27,7 +28,9 @@ struct RemainderFinding {
       effect;  ///< the form as columns; empty: no form that comes back (phases of their own)
   bool local = false;  ///< stands on one tooth
   OwnCourse own = OwnCourse::kNone;
+  bool own_relief = false;   ///< a form of many waves on every trace, not a slope or a bow
   OwnPlaces places = {};     ///< in single values
+  std::vector<OwnWaves> own_waves = {};  ///< on every flank of a scan, each in its phase
   bool beside_line = false;  ///< along the flanks, sought beside a slope
 };
 

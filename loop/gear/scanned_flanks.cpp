@@ -72,7 +72,9 @@ class ScannedFlanks {
         counts(flanks.size()), held_out(flanks.size());
     for_each_piece(flanks.size(), [&](std::size_t k) {
       squares[k] = mean_square(flanks[k]);
-      const OfFlank own = of_flank(values_of(flanks[k], common));
+      std::vector<Value> values_of_flank = values_of(flanks[k], common);
+      const double of_waves = take_own_waves_off(values_of_flank, side == 1 ? 1 : -1);
+      const OfFlank own = of_flank(values_of_flank, of_waves);
       variances[k] = own.variance;
       scatters[k] = own.scatter;
       counts[k] = static_cast<double>(rows_.count(flanks[k]));
@@ -212,8 +214,36 @@ class ScannedFlanks {
   using Forms = std::array<double, kForms>;
   static Forms forms_at(double u, double v) { return {1.0, u, v, u * u, u * v, v * v}; }
 
-  /// Of what a bent and twisted plane leaves.
-  [[nodiscard]] OfFlank of_flank(const std::vector<Value>& values) const {
+  /// Takes waves that the flank has in a phase of its own off; how many figures that took.
+  double take_own_waves_off(std::vector<Value>& values, int side) const {
+    double figures = 0.0;
+    for (const OwnWaves& wave : left_.own_waves) {
+      if (wave.side != side) continue;
+      const auto phase_at = [&](const Value& value) {
+        return kPi * (wave.waves_profile * (value.u + 1.0) + wave.waves_face * (value.v + 1.0));
+      };
+      Eigen::Matrix2d gram = Eigen::Matrix2d::Zero();
+      Eigen::Vector2d right = Eigen::Vector2d::Zero();
+      for (const Value& value : values) {
+        const double phase = phase_at(value);
+        const Eigen::Vector2d form(std::cos(phase), std::sin(phase));
+        gram += form * form.transpose();
+        right += value.um * form;
+      }
+      const double determinant = gram.determinant();
+      if (!(determinant > 0.01 * gram(0, 0) * gram(1, 1))) continue;
+      const Eigen::Vector2d sizes = gram.inverse() * right;
+      for (Value& value : values) {
+        const double phase = phase_at(value);
+        value.um -= sizes[0] * std::cos(phase) + sizes[1] * std::sin(phase);
+      }
+      figures += 2.0;
+    }
+    return figures;
+  }
+
+  /// Of what a bent and twisted plane leaves; `taken`: figures that were fitted before.
+  [[nodiscard]] OfFlank of_flank(const std::vector<Value>& values, double taken) const {
     using Matrix = Eigen::Matrix<double, kForms, kForms>;
     using Vector = Eigen::Matrix<double, kForms, 1>;
     const auto n = static_cast<double>(values.size());
@@ -234,7 +264,8 @@ class ScannedFlanks {
     const Eigen::VectorXd plane = symmetric_solution(gram, score);
     const Courses own = own_courses(values, plane);
     const double left = squares - score.dot(plane) - own.square;
-    return {std::max(0.0, left) / std::max(1.0, n - kForms - own.degrees), close_by(values, plane)};
+    return {std::max(0.0, left) / std::max(1.0, n - kForms - own.degrees - taken),
+            close_by(values, plane)};
   }
 
   /// What the courses of its own take out of a flank beside the plane.

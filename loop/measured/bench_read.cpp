@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "trueflank/base/ascii_letters.h"
+#include "trueflank/base/number_text.h"
 #include "trueflank/loop/measured/bench_data.h"
 #include "trueflank/loop/measured/csv_rows.h"
 
@@ -22,6 +23,25 @@ constexpr Column kColumns[] = {
     {"input_angle_deg", "input_angle", "degrees"},
     {"reverse_starting_torque_nm", "reverse_starting_torque", "newton metres"},
 };
+
+/// Beyond these no bench measures: sizes whose squares and differences still are numbers.
+struct Bound {
+  const char* column;
+  double BenchRow::*value;
+  double most;
+  const char* unit;
+};
+constexpr Bound kBounds[] = {
+    {"input_speed_rpm", &BenchRow::speed_rpm, 1e7, "rpm"},
+    {"input_torque_nm", &BenchRow::input_nm, 1e9, "N m"},
+    {"output_torque_nm", &BenchRow::output_nm, 1e9, "N m"},
+    {"temperature_c", &BenchRow::temperature_c, 1e4, "degrees Celsius"},
+    {"input_angle_deg", &BenchRow::angle_deg, 1e13, "degrees"},
+    {"sigma_nm", &BenchRow::sigma_nm, 1e9, "N m"},
+};
+
+/// Errors below this weigh so much that nothing else counts, N m.
+constexpr double kLeastSigma = 1e-12;
 
 /// A number followed by letters: somebody wrote the unit into the field.
 bool carries_unit(std::string_view field) {
@@ -102,7 +122,14 @@ class RowReader {
       if (!wrong.empty()) return wrong;
     row.speed_rpm = std::abs(row.speed_rpm);  // the direction column says which way the power goes
     if (!std::isnan(row.sigma_nm) && !(row.sigma_nm > 0.0)) return "sigma_nm is no positive number";
+    if (row.sigma_nm < kLeastSigma)
+      return printed("sigma_nm of %.4g is less than any sensor's (%.0e N m)", row.sigma_nm,
+                     kLeastSigma);
     if (row.temperature_c < -273.15) return "temperature_c lies below absolute zero";
+    for (const Bound& bound : kBounds)
+      if (std::abs(row.*bound.value) > bound.most)
+        return printed("%s of %.4g is more than any bench has (%.0e %s)", bound.column,
+                       row.*bound.value, bound.most, bound.unit);
     return {};
   }
 

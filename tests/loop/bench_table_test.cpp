@@ -235,6 +235,47 @@ TEST(BenchFile, RowsWithoutAnyTorqueAreRefused) {
   EXPECT_THAT(first_error(text).message, HasSubstr("a torque of 0"));
 }
 
+TEST(BenchFile, ASideThatNeverHasATorqueIsRefusedByItsColumn) {
+  // (such rows ended in a crash; so did torques too small to be squared)
+  for (const char* direction : {"forward", "backward"})
+    for (const int side : {0, 1})
+      for (const double factor : {0.0, 1e-200}) {
+        const std::string text = changed([&](const std::string& l, std::size_t) {
+          return l.starts_with(direction)
+                     ? scaled(l, side == 0 ? factor : 1.0, side == 1 ? factor : 1.0)
+                     : l;
+        });
+        const Error error = first_error(text);
+        EXPECT_EQ(error.key, side == 0 ? "input_torque_nm" : "output_torque_nm");
+        EXPECT_THAT(error.message,
+                    HasSubstr(std::string("every ") + direction + " row says a torque of 0"));
+      }
+}
+
+TEST(BenchFile, ValuesThatNoBenchHasAreLeftOutByRow) {
+  const std::string header = clean_lines().front() + ",temperature_c,input_angle_deg,sigma_nm";
+  const auto with = [&](const std::string& row) {
+    std::vector<std::string> lines = clean_lines();
+    for (std::string& line : lines) line += ",25,0,0.02";
+    lines.front() = header;
+    lines[7] = row;
+    return joined(lines);
+  };
+  for (const auto& [row, column] : std::vector<std::pair<std::string, std::string>>{
+           {"forward,1e308,0.1,8,25,0,0.02", "input_speed_rpm of 1e+308"},
+           {"forward,900,1e30,8,25,0,0.02", "input_torque_nm of 1e+30"},
+           {"forward,900,0.1,-1e308,25,0,0.02", "output_torque_nm of -1e+308"},
+           {"forward,900,0.1,8,1e308,0,0.02", "temperature_c of 1e+308"},
+           {"forward,900,0.1,8,25,1e300,0.02", "input_angle_deg of 1e+300"},
+           {"forward,900,0.1,8,25,0,1e-300", "sigma_nm of 1e-300"}}) {
+    const auto closed = close_bench_text(with(row));
+    ASSERT_TRUE(closed);
+    const std::string text = loop::loop_text(closed->result);
+    EXPECT_THAT(text, HasSubstr("bench.csv:8: left out: " + column));
+    EXPECT_EQ(closed->result.verdict, loop::Verdict::kNoEffect) << text;
+  }
+}
+
 TEST(BenchFile, ASingleGearHasNoBench) {
   GearboxDesign design{.name = "single", .topology = train_topology("gear")};
   design.gears = {{.name = "gear", .teeth = 20}};

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <iostream>
 #include <random>
 #include <string>
 #include <variant>
@@ -107,6 +108,66 @@ TEST(BodyForms, ASinkBesideAGateIsOnePlace) {
         << list(result);
     EXPECT_NEAR(number_of(*terms[0], "half_deg"), half_deg, 0.15 * half_deg) << list(result);
     EXPECT_NEAR(terms[0]->amplitude(), um, 0.1 * um) << seed << list(result);
+  }
+}
+
+TEST(BodyForms, TwoGatesOfUnequalDepthAreTwoPlaces) {
+  // (waves out of round, sectors and steps were told in their place)
+  int right = 0;
+  constexpr int kAll = 8;
+  for (unsigned seed = 1; seed <= kAll; ++seed) {
+    auto random = random_of(seed);
+    const MadeGear gear = spur(static_cast<int>(between(random, 34.0, 66.0)));
+    const double um = between(random, 10.0, 18.0), share = between(random, 0.5, 0.8),
+                 half_deg = between(random, 15.0, 22.0);
+    const std::array<double, 2> at_deg{between(random, 0.0, 100.0), between(random, 200.0, 260.0)};
+    const auto made = grown([&](const MadeGear&, const FlankSpot&, const Vec3& p) {
+      double sum = 0.0;
+      for (const std::size_t k : {0U, 1U}) {
+        const double off = std::remainder(std::atan2(p[1], p[0]) - radians(at_deg[k]), 2.0 * M_PI) /
+                           radians(half_deg);
+        sum -= (k == 0 ? 1.0 : share) * um * std::exp(-off * off);
+      }
+      return sum;
+    });
+    InspectionOptions options{.noise_um = 0.8, .profile = false, .helix = false, .seed = seed};
+    const auto result = seed % 2 == 0 ? measured(gear, made, 2.5, seed)
+                                      : close(gear, inspection_of(gear, {made}, options));
+    const auto terms = terms_of(result);
+    bool is_right = terms.size() == 2 && result.noise < (seed % 2 == 0 ? 2.6 : 1.1);
+    for (const loop::Term* term : terms) {
+      const double at = number_of(*term, "at_deg");
+      const std::size_t k = std::abs(std::remainder(at - at_deg[0], 360.0)) < 90.0 ? 0 : 1;
+      const double size = (k == 0 ? 1.0 : share) * um;
+      is_right = is_right && std::abs(std::remainder(at - at_deg[k], 360.0)) < 3.0 &&
+                 std::abs(term->amplitude() - size) < 0.12 * size;
+    }
+    right += is_right ? 1 : 0;
+    if (!is_right)
+      std::cout << seed << " " << um << " " << share * um << " at " << at_deg[0] << ", "
+                << at_deg[1] << list(result) << "\n";
+  }
+  EXPECT_GE(right, kAll - 1);
+}
+
+TEST(BodyForms, ABodyThatSagsOnOneSideIsOnePlace) {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    auto random = random_of(seed);
+    const MadeGear gear = seed % 2 == 0 ? ring(static_cast<int>(between(random, 50.0, 64.0)))
+                                        : spur(static_cast<int>(between(random, 24.0, 50.0)));
+    const double um = between(random, 25.0, 40.0), at_deg = between(random, 0.0, 360.0);
+    const auto made = grown([&](const MadeGear& g, const FlankSpot& s, const Vec3& p) {
+      const double cosine = std::cos(std::atan2(p[1], p[0]) - radians(at_deg));
+      return cosine > 0.0 ? outwards(g, s, p, -um * cosine * cosine) : 0.0;
+    });
+    const auto result = measured(gear, made, 1.5, seed);
+    EXPECT_TRUE(tells(result, "a body that sags, warps or is held on one side"))
+        << seed << list(result);
+    const auto terms = terms_of(result);
+    ASSERT_EQ(terms.size(), 1U) << seed << list(result);
+    EXPECT_NEAR(std::remainder(number_of(*terms[0], "at_deg") - at_deg, 360.0), 0.0, 3.0)
+        << list(result);
+    EXPECT_NEAR(terms[0]->amplitude(), um, 0.08 * um) << seed << list(result);
   }
 }
 

@@ -85,6 +85,55 @@ TEST(FlankWaves, ProfilesThatEveryFlankHasForItselfAreNoNoise) {
   }
 }
 
+/// Chatter that begins anew on every flank: so many waves over profile and face.
+auto chatter(double um, double waves_profile, double waves_face, unsigned seed, bool mirrored) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> phase(0.0, kTurn);
+  std::vector<double> phases(2 * 101);
+  for (double& one : phases) one = phase(random);
+  return [=](const MadeGear&, const FlankSpot& s, const Vec3&) {
+    const double face = mirrored && s.side < 0 ? -waves_face : waves_face;
+    return um * std::cos(kTurn * 0.5 * (waves_profile * (s.u + 1.0) + face * (s.v + 1.0)) +
+                         phases[static_cast<std::size_t>(2 * s.tooth + (s.side > 0 ? 1 : 0))]);
+  };
+}
+
+TEST(FlankWaves, ChatterInAPhaseOfItsOwnOnEveryFlankIsNoNoise) {
+  // (it was `no_effect`, with all of it called noise)
+  const MadeGear gear = spur(37);
+  for (const bool mirrored : {false, true}) {
+    const auto result =
+        close(gear,
+              scan_of(gear, {grown(chatter(6.0, 2.3, 3.1, mirrored ? 3 : 4, mirrored))},
+                      scan_with(3.0, 21)),
+              true);
+    EXPECT_EQ(result.verdict, loop::Verdict::kPartlyExplained) << list(result);
+    EXPECT_NE(result.structure_left.find("in a phase of its own on every flank"), std::string::npos)
+        << result.structure_left;
+    EXPECT_NE(result.structure_left.find(mirrored ? " flanks and "
+                                                  : "falling towards the tip, in a phase"),
+              std::string::npos)
+        << result.structure_left;
+    EXPECT_NEAR(result.noise, 3.0, 0.25);
+  }
+}
+
+TEST(FlankWaves, ErrorsThatHangTogetherAlongLinesAreNoWavesOfFlanks) {
+  // Each value keeps some of the one before it: lines of a scanner.
+  const MadeGear gear = spur(37);
+  for (const unsigned seed : {31u, 32u, 33u, 34u}) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    double last = 0.0;
+    const auto lines = [&](auto&, const FlankSpot&, auto&) {
+      return last = 0.8 * last + 3.0 * normal(random);
+    };
+    const auto result = close(gear, scan_of(gear, {grown(lines)}, scan_with(1.0, seed)), true);
+    EXPECT_EQ(result.structure_left.find("in a phase of its own on every flank"), std::string::npos)
+        << result.structure_left;
+  }
+}
+
 TEST(FlankWaves, AMachinesOrderAboveTheCandidatesIsNamedInAScan) {
   const MadeGear gear = spur(29);
   const auto ghost = [&](auto&, const FlankSpot& s, const Vec3& p) {

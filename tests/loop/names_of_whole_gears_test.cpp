@@ -104,6 +104,23 @@ TEST(NamesOfWholeGears, LobesBesideNicksAtTheTips) {
 }
 
 // A little that may be left does not keep an answer that leaves several times more.
+TEST(NamesOfWholeGears, LeansOverTheFaceAreNoLobingOfThirtyTimesTheirSize) {
+  // Helix traces of a helical gear: it was out of round by more than a tenth of a millimetre.
+  const MadeGear gear = helical(60, 20.0);
+  const auto saddle = grown([](const MadeGear& g, const FlankSpot& s, auto&) {
+    return 4.0 * s.v * std::cos(2.0 * kTwoPi * (s.tooth - 1) / g.teeth - 0.6);
+  });
+  InspectionOptions options{.teeth = {1, 9, 16, 24, 31, 39, 46, 54},
+                            .noise_um = 0.8,
+                            .profile = false,
+                            .index = false,
+                            .seed = 3};
+  const auto result = close(gear, inspection_of(gear, {saddle}, options));
+  EXPECT_EQ(find(result, "lobing"), nullptr) << list(result);
+  EXPECT_TRUE(tells(result, "twice per turn, sloping over the face")) << list(result);
+  EXPECT_EQ(result.effects.size(), 1U) << list(result);
+}
+
 TEST(NamesOfWholeGears, AScaleAndALeadBesideDirtOnOneSide) {
   constexpr double kPercent = -0.54, kTowards = 4.38;
   const MadeGear gear = spur(19);

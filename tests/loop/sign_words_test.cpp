@@ -363,7 +363,7 @@ std::vector<Told> forms(const loop::FlankGeometry& g) {
        0,
        -1},
       {"unnamed_body_place",
-       {1, 0, 15, 20, 0, 0, 0, 0, 5, 2, -1, 0},
+       {1, 0, 15, 20, 0, 0, 0, 0, 5, 2, -1, 0, 0},
        "a swelling of the body towards 15 deg, 20 deg to either side, dying away from the lower "
        "end "
        "within 2 mm: there the teeth stand out",
@@ -373,7 +373,7 @@ std::vector<Told> forms(const loop::FlankGeometry& g) {
        0,
        -1},
       {"unnamed_body_place",
-       {3, 1, 15, 20, 0, 0, 0, 0, 0, 0, 0, 0},
+       {3, 1, 15, 20, 0, 0, 0, 0, 0, 0, 0, 0, 1},
        "3 swellings of the body evenly spaced around the gear, one towards 15 deg, 20 deg to "
        "either "
        "side, by 3 um of radius",

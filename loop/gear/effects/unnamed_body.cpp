@@ -20,7 +20,19 @@ namespace {
 
 /// Where courses stand among the shape values.
 constexpr std::size_t kFaceOfWave = 2, kProfileOfPlace = 4,
-                      kFaceOfPlace = kProfileOfPlace + FlankCourse::kValues;
+                      kFaceOfPlace = kProfileOfPlace + FlankCourse::kValues,
+                      kEndsOfPlace = kFaceOfPlace + FlankCourse::kValues;
+
+/// No gate is as wide, to either side.
+constexpr double kWide_deg = 40.0;
+
+/// A place around the gear that ends: the square of a cosine about its middle, e^-1 of it at the
+/// half width as of a bell.
+double bell_that_ends(double off, double half) {
+  constexpr double kAtHalf = 0.9191;  // acos(exp(-1/2))
+  const double phase = kAtHalf * off / half;
+  return std::abs(phase) < 0.5 * kPi ? std::cos(phase) * std::cos(phase) : 0.0;
+}
 
 /// What a displacement outwards is worth along the normal.
 double worth_of_radius(const FlankGeometry& g, const Place& p) {
@@ -122,14 +134,16 @@ EffectFamily unnamed_body_wave() {
 }
 
 /// A place of the body that stands out or lies back: by the direction in which a point lies, along
-/// the normal or, `radial` 1, outwards; all over profile and face or along a part of them. A sink
-/// beside a gate, the mark of an ejector, a press fit over a keyway. Told in place of forms of some
-/// teeth that lie side by side (part/body_forms.cpp), and no candidate of its own.
+/// the normal or, `radial` 1, outwards; all over profile and face or along a part of them; a bell
+/// around the gear or, `ends` 1, a squared cosine, as what sags on one side. A sink beside a gate,
+/// the mark of an ejector, a press fit over a keyway. Told in place of forms of some teeth that lie
+/// side by side (part/body_forms.cpp), and no candidate of its own.
 EffectFamily unnamed_body_place() {
   EffectFamily f = described("unnamed_body_place", {"number", "radial", "at_deg", "half_deg"});
   for (const std::string along : {"profile", "face"})
     for (const char* value : {"_course", "_mm", "_towards", "_half_mm"})
       f.shape_names.push_back(along + value);
+  f.shape_names.emplace_back("ends");
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = 0.0;
     if (p.surface != Surface::kFlank) return;
@@ -139,7 +153,8 @@ EffectFamily unnamed_body_place() {
     double size = 0.0;
     for (const double next : {-apart, 0.0, apart})  // (one place: once)
       if (std::abs(off + next) < std::min(kNothing * half, kPi + half))
-        size += bell(off + next, half);
+        size +=
+            shape[kEndsOfPlace] == 0.0 ? bell(off + next, half) : bell_that_ends(off + next, half);
     if (size == 0.0) return;
     size *= FlankCourse::at(shape, kProfileOfPlace).value(g, 0.0, p.roll_mm) *
             FlankCourse::at(shape, kFaceOfPlace).value(g, 1.0, p.z_mm);
@@ -168,8 +183,10 @@ EffectFamily unnamed_body_place() {
                                std::min(kWidest_deg, 0.4 * 360.0 / shape[0]));
         if (beside != shape) shapes.push_back(std::move(beside));
       }
-    shapes.push_back(shape);
-    shapes.back()[1] = 1.0 - shape[1];
+    for (const std::size_t other : {std::size_t{1}, kEndsOfPlace}) {
+      shapes.push_back(shape);
+      shapes.back()[other] = 1.0 - shape[other];
+    }
     put_courses_beside(g, shape, kProfileOfPlace, 0.0, shapes);
     put_courses_beside(g, shape, kFaceOfPlace, 1.0, shapes);
     return shapes;
@@ -185,6 +202,7 @@ EffectFamily unnamed_body_place() {
                  number("half_deg")};
   add_keys_of_course("profile", f);
   add_keys_of_course("face", f);
+  f.term_keys.push_back({"dies_away", TermKey::Kind::kWord, {"as_a_bell", "as_a_squared_cosine"}});
   f.words = [](const ToldForm& told) {
     const EffectShape& shape = told.shape;
     const int sign = told.sign();
@@ -218,7 +236,9 @@ EffectFamily unnamed_body_place() {
       text += printed(", by %.3g um of radius", std::abs(told.amounts[0]));
     return text + ": there the teeth " +
            (sign == 0 ? "stand out or lie back" : stand(of_a_ring ? -sign : sign)) +
-           " on both flanks, as from a gate, an ejector or a clamp";
+           " on both flanks, as from " +
+           (shape[3] > kWide_deg ? "a body that sags, warps or is held on one side"
+                                 : "a gate, an ejector or a clamp");
   };
   return f;
 }

@@ -11,6 +11,7 @@
 #include "trueflank/base/widest_registers.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/order_statistics.h"
+#include "trueflank/loop/gear/local/own_waves.h"
 #include "trueflank/loop/gear/local/wave_products.h"
 #include "trueflank/loop/gear/table/thinned_rows.h"
 
@@ -20,8 +21,6 @@ namespace {
 
 constexpr std::size_t kMostOfSpectrum = 40000;
 constexpr int kFewestTeeth = 8;
-/// A flank with fewer values tells nothing of waves in it.
-constexpr int kFewestValues = 12;
 
 class Spectrum {
  public:
@@ -36,7 +35,8 @@ class Spectrum {
   FlankSpectrum run() {
     if (known_ < 2 * kFewestTeeth) return {};
     look_at_all();
-    return {largest_wave(), apart(), forms_apart()};
+    return {largest_wave(), apart(), forms_apart(),
+            own_waves(flanks_, values_, {most_profile_, most_face_})};
   }
 
   /// Over the face alone, at most one of either side. Where few teeth have a trace one order looks
@@ -68,19 +68,13 @@ class Spectrum {
   }
 
  private:
-  struct Flank {
-    int count = 0;
-    double mean = 0.0;
-    std::vector<double> real, imaginary;  ///< sums over kProfile + 1 by kColumns waves
-    [[nodiscard]] Complex sum(int a, int b) const { return {real[at(a, b)], imaginary[at(a, b)]}; }
-  };
+  using Flank = FlankSums;
   void look_at_all() {
     most_profile_ = kind_ == ObservationKind::kHelix ? 0 : most_waves(&Value::u, kProfile);
     most_face_ = most_waves(&Value::v, kFace);
     take_means_off();
     transform();
   }
-  static std::size_t at(int a, int b) { return static_cast<std::size_t>(a * kColumns + b + kFace); }
   Flank& flank_of(const Value& value) {
     return flanks_[static_cast<std::size_t>(2 * (value.tooth - 1) + value.side)];
   }
@@ -185,8 +179,8 @@ class Spectrum {
         for (int b = 0; b <= kFace; ++b)
           for (const int sign : {1, -1}) {
             const Complex sum = products.sum(a, b, sign);
-            flank.real[at(a, sign * b)] = sum.real();
-            flank.imaginary[at(a, sign * b)] = sum.imag();
+            flank.real[FlankSums::at(a, sign * b)] = sum.real();
+            flank.imaginary[FlankSums::at(a, sign * b)] = sum.imag();
           }
     });
   }
@@ -200,8 +194,8 @@ class Spectrum {
     Complex turn = 1.0;
     for (int k = 0; k < teeth_; ++k, turn = product(turn, step)) {
       const Flank& flank = flanks_[static_cast<std::size_t>(2 * k + side)];
-      const double *const x = &flank.real[at(a, -kFace)], *const y =
-                                                              &flank.imaginary[at(a, -kFace)];
+      const double *const x = &flank.real[FlankSums::at(a, -kFace)],
+                          *const y = &flank.imaginary[FlankSums::at(a, -kFace)];
       in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
         for (std::size_t b = 0; b < kColumns; ++b) {
           real[b] += x[b] * turn.real() - y[b] * turn.imag();
@@ -526,9 +520,6 @@ class Spectrum {
     found.spread_um = std::sqrt(squares);
     return found;
   }
-
-  /// A median of exponentials is known as well as a mean of so many of them.
-  static constexpr double kToldByWaves = 0.48;
 
   int teeth_, orders_ = teeth_, known_ = 0;  ///< orders_: asked about, of teeth_ periods a turn
   ObservationKind kind_;

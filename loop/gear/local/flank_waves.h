@@ -34,16 +34,29 @@ struct FormsApart {
   double spread_um = 0.0;  ///< standard deviation beyond the noise, of all whole waves
 };
 
+/// Waves of one length and direction on every flank of one side of a scan, in a phase of its own on
+/// each: what chatters, and begins anew on every flank. Phase: 2 pi (waves_profile (u + 1) / 2 +
+/// waves_face (v + 1) / 2) and one of the flank's.
+struct OwnWaves {
+  double p_value = 1.0;                          ///< corrected for all wavelengths and both sides
+  int side = 1;                                  ///< +1: flanks on the counter-clockwise side
+  double waves_profile = 0.0, waves_face = 0.0;  ///< over the involute, over the face
+  double amplitude_um = 0.0;                     ///< of the usual flank
+};
+
 struct FlankSpectrum {
   std::optional<FlankWaves> waves;
   std::optional<TeethApart> apart;
   std::optional<FormsApart> forms;
+  std::vector<OwnWaves> own_waves;  ///< the largest of either side
 };
 
-/// Fourier sums over every flank of a scan, and over the teeth. A wave is judged by the other orders at its
-/// own wavelengths, so that errors that hang together along the lines of a scan are no finding; the heights
-/// of the flanks by the longest waves within them, and courses of their own by waves as long that run askew.
-/// `row_um`: residuals of the rows; `used`: which are asked.
+/// Fourier sums over every flank of a scan, and over the teeth. A wave is judged by the other
+/// orders at its own wavelengths, so that errors that hang together along the lines of a scan are
+/// no finding; the heights of the flanks by the longest waves within them, and courses of their own
+/// by waves as long that run askew. Waves in a phase of their own on every flank are judged by the
+/// wavelengths around them in every direction. `row_um`: residuals of the rows; `used`: which are
+/// asked.
 [[nodiscard]] FlankSpectrum flank_spectrum(const FlankGeometry& geometry, const Observations& table,
                                            const std::vector<float>& row_um,
                                            const std::vector<bool>& used);

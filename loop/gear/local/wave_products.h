@@ -5,6 +5,7 @@
 #include <complex>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "trueflank/base/units.h"
 #include "trueflank/base/widest_registers.h"
@@ -69,6 +70,20 @@ class WaveProducts {
   static constexpr std::size_t kAlong = 2 * (kProfile + 1), kHalf = kFace + 1, kRow = 2 * kHalf + 2;
   static_assert(kWavesAtOnce == 4 && kRow % 4 == 0);
   std::array<std::array<double, kRow>, kAlong> sums_{};
+};
+
+/// A flank with fewer values tells nothing of waves in it.
+constexpr int kFewestValues = 12;
+/// A median of exponentials is known as well as a mean of so many of them.
+constexpr double kToldByWaves = 0.48;
+
+/// Of one flank: how many values, their mean [um], and their Fourier sums.
+struct FlankSums {
+  int count = 0;
+  double mean = 0.0;
+  std::vector<double> real, imaginary;  ///< over kProfile + 1 by kColumns waves
+  static std::size_t at(int a, int b) { return static_cast<std::size_t>(a * kColumns + b + kFace); }
+  [[nodiscard]] Complex sum(int a, int b) const { return {real[at(a, b)], imaginary[at(a, b)]}; }
 };
 
 }  // namespace trueflank::loop::flank_waves

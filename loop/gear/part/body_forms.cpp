@@ -169,7 +169,7 @@ Effect body_place(double number, double radial, double at_deg, double half_deg,
                   const FlankCourse& profile = {}, const FlankCourse& face = {}) {
   constexpr std::size_t kProfile = 4, kFace = kProfile + FlankCourse::kValues;
   EffectShape shape{number, radial, at_deg, half_deg};
-  shape.resize(kFace + FlankCourse::kValues);
+  shape.resize(kFace + FlankCourse::kValues + 1);  // (the last: how it dies away around the gear)
   profile.put_in(shape, kProfile);
   face.put_in(shape, kFace);
   return {find_family("unnamed_body_place"), FlankChoice::kBoth, std::move(shape)};
@@ -193,7 +193,9 @@ std::vector<std::vector<Effect>> with_places(const PartModel& model,
       found.push_back(std::move(with));
   };
   std::vector<Effect> forms;
-  for (const double radial : {0.0, 1.0})
+  // (at one height of the profile both say the same)
+  for (const double radial :
+       has_single_values_only(model) ? std::vector{0.0} : std::vector{0.0, 1.0})
     for (const double half : asked.half_deg)
       for (const double at : asked.at_deg)
         forms.push_back(body_place(asked.number, radial, at, half));
@@ -275,25 +277,17 @@ bool tell_as_one_place(PartModel& model, const std::vector<SideBySide>& runs) {
   return false;
 }
 
-/// Each run of teeth a place, where an effect is on several of them: a comb that some places happen
-/// to fall on.
-bool tell_as_several_places(PartModel& model, const std::vector<SideBySide>& runs,
-                            const Indices& on_some) {
-  constexpr std::size_t kMost = 8;
+/// True where these places, one after the other, stand for these effects: they are put in their
+/// place.
+bool put_places_for(PartModel& model, const Indices& these,
+                    const std::vector<PlacesAsked>& places) {
   constexpr double kClearly = 9.0;  // chi-square
   constexpr int kMoreOfEach = 2;    // values, as of one place
-  std::size_t of_runs = 0;
-  for (const SideBySide& run : runs) of_runs += run.effects.size();
-  if (runs.size() < 2 || runs.size() > kMost || of_runs == on_some.size() ||
-      !are_on_both_flanks(model, on_some))
-    return false;
   std::vector<Effect> with;
   for (std::size_t e = 0; e < model.effects.size(); ++e)
-    if (std::find(on_some.begin(), on_some.end(), e) == on_some.end())
-      with.push_back(model.effects[e]);
-  for (const SideBySide& run : runs) {
-    std::vector<std::vector<Effect>> answers =
-        with_places(model, with, place_of(model.geometry, run));
+    if (std::find(these.begin(), these.end(), e) == these.end()) with.push_back(model.effects[e]);
+  for (const PlacesAsked& asked : places) {
+    std::vector<std::vector<Effect>> answers = with_places(model, with, asked);
     if (answers.empty()) return false;
     with = std::move(*std::min_element(
         answers.begin(), answers.end(),
@@ -301,11 +295,70 @@ bool tell_as_several_places(PartModel& model, const std::vector<SideBySide>& run
   }
   refine_nearby(model.geometry, model.table, model.patches, with);
   if (values_of(with, true) >
-          values_of(model.effects, true) + kMoreOfEach * static_cast<int>(runs.size()) ||
+          values_of(model.effects, true) + kMoreOfEach * static_cast<int>(places.size()) ||
       cost_of(model, with) > cost_of(model, model.effects) - kClearly)
     return false;
-  put_in_place_of(model, on_some, with);
+  put_in_place_of(model, these, with);
   return true;
+}
+
+/// Each run of teeth a place, where an effect is on several of them: a comb that some places happen
+/// to fall on.
+bool tell_as_several_places(PartModel& model, const std::vector<SideBySide>& runs,
+                            const Indices& on_some) {
+  constexpr std::size_t kMost = 8;
+  std::size_t of_runs = 0;
+  for (const SideBySide& run : runs) of_runs += run.effects.size();
+  if (runs.size() < 2 || runs.size() > kMost || of_runs == on_some.size() ||
+      !are_on_both_flanks(model, on_some))
+    return false;
+  std::vector<PlacesAsked> places;
+  for (const SideBySide& run : runs) places.push_back(place_of(model.geometry, run));
+  return put_places_for(model, on_some, places);
+}
+
+/// Up to three places anywhere, for what goes around the gear in several ways, with what is the
+/// same on every tooth or without: wide places, and places of unequal depth, are such sums.
+bool tell_as_few_places(PartModel& model, const Indices& on_some) {
+  constexpr std::size_t kMostPlaces = 3, kFewest = 2;
+  Indices around = on_some, names, alike;
+  bool told_as_place = true;
+  PlacesAsked anywhere;
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    const Effect& effect = model.effects[e];
+    if (effect.flank != FlankChoice::kBoth || effect.family->tells_order_along_profile) continue;
+    if (runs_of(model.geometry, effect) != Runs::kOtherwise) {
+      alike.push_back(e);
+      continue;
+    }
+    if (std::find(on_some.begin(), on_some.end(), e) != on_some.end()) continue;
+    (effect.family->named && effect.order() <= 1.0 ? names : around).push_back(e);
+  }
+  for (const std::size_t e : around)
+    told_as_place = told_as_place && model.effects[e].family == find_family("unnamed_body_place") &&
+                    model.effects[e].shape[0] == 1.0;
+  if (around.empty() || told_as_place || around.size() + names.size() < kFewest) return false;
+  for (double half = std::max(8.0, 270.0 / model.geometry.teeth()); half < 75.0; half *= 1.7)
+    anywhere.half_deg.push_back(half);
+  for (double at = 0.0; at < 360.0; at += 12.0) anywhere.at_deg.push_back(at);
+  std::vector<Indices> sets;
+  for (const Indices& more : {Indices(), names, alike}) {
+    if (!sets.empty() && more.empty()) continue;
+    sets.push_back(around);
+    sets.back().insert(sets.back().end(), more.begin(), more.end());
+  }
+  if (sets.size() > 2) {
+    sets.push_back(sets[1]);
+    sets.back().insert(sets.back().end(), alike.begin(), alike.end());
+  }
+  std::reverse(sets.begin(), sets.end());  // the most first
+  for (Indices& these : sets) {
+    std::sort(these.begin(), these.end());
+    if (these.size() < kFewest) continue;
+    for (std::size_t places = 1; places <= kMostPlaces; ++places)
+      if (put_places_for(model, these, std::vector(places, anywhere))) return true;
+  }
+  return false;
 }
 
 /// Evenly spaced, for waves around the gear of an order and its multiples and for forms of teeth
@@ -447,7 +500,7 @@ bool tell_as_body_place(PartModel& model) {
   Indices on_some;
   const std::vector<SideBySide> runs = side_by_side(model, on_some);
   return tell_as_places_around(model, runs, on_some) || tell_as_one_place(model, runs) ||
-         tell_as_several_places(model, runs, on_some);
+         tell_as_several_places(model, runs, on_some) || tell_as_few_places(model, on_some);
 }
 
 }  // namespace trueflank::loop

@@ -29,7 +29,12 @@ WhatIsLeft what_is_left(const PartModel& model) {
   for (const RemainderFinding& finding : model.remainder) {
     left.own_profiles = left.own_profiles || finding.own == OwnCourse::kProfile;
     left.own_leads = left.own_leads || finding.own == OwnCourse::kLead;
+    left.smooth_profiles =
+        left.smooth_profiles || (finding.own_relief && finding.own == OwnCourse::kProfile);
+    left.smooth_leads =
+        left.smooth_leads || (finding.own_relief && finding.own == OwnCourse::kLead);
     if (finding.places.any) left.places = finding.places;
+    left.own_waves.insert(left.own_waves.end(), finding.own_waves.begin(), finding.own_waves.end());
   }
   return left;
 }
