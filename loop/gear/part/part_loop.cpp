@@ -7,6 +7,7 @@
 #include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/choice.h"
 #include "trueflank/loop/gear/part/forms_around.h"
+#include "trueflank/loop/gear/part/likelier_names.h"
 #include "trueflank/loop/gear/part/names.h"
 #include "trueflank/loop/gear/part/one_flank.h"
 #include "trueflank/loop/gear/part/other_starts.h"
@@ -105,6 +106,7 @@ void explain_part(PartModel& model) {
   take_form_around(model);
   tell_what_one_flank_has(model);
   name_what_is_settled(model);
+  tell_likeliest_names(model);
   tell_the_usual_of_equals(model);
   drop_names_that_may_be_nothing(model);
   model.remainder = remainder_of(model, model.effects, RemainderOf::kAll);
