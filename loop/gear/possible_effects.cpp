@@ -12,7 +12,7 @@ constexpr double kMostInModules = 0.5;
 /// How many times what was measured one effect may add up to while others take it back.
 constexpr double kMostTakenBack = 8.0;
 
-/// How many times what the data see of an effect around the gear (rms) it may be anywhere: a gear
+/// How many times what traces see of an effect around the gear (rms) it may be anywhere: a gear
 /// that is out of round turns helix traces by a thirtieth of that, and so does much else.
 constexpr double kMostUnseen = 15.0;
 
@@ -53,7 +53,8 @@ bool is_possible(const FlankGeometry& geometry, const PointFit& fit, int effect)
   const double module_um = 1e3 * geometry.gear().normal_module_mm;
   const double most_um = most_on_the_gear_um(geometry, one, b);
   if (most_um > kMostInModules * module_um) return false;
-  if (one.family->named && one.order() > 0.0 && most_um > kMostUnseen * fit.effect_size_um(effect))
+  if (one.family->named && one.order() > 0.0 && fit.is_of_traces_alone() &&
+      most_um > kMostUnseen * fit.effect_size_um(effect))
     return false;
   const double before = fit.errors(std::vector<bool>(fit.effects().size(), false)).rms_um;
   return !(before > 0.0) || fit.effect_size_um(effect) <= kMostTakenBack * before;

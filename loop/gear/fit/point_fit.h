@@ -55,6 +55,8 @@ class PointFit {
   [[nodiscard]] double column_size(int column) const;
   /// Root mean square of what an effect adds to the values [um].
   [[nodiscard]] double effect_size_um(int effect) const;
+  /// True where profile and helix traces are all that was measured.
+  [[nodiscard]] bool is_of_traces_alone() const;
   /// The same of several together, less what the pose takes up of it.
   [[nodiscard]] double size_beside_pose_um(const std::vector<int>& effects) const;
 

@@ -269,20 +269,13 @@ void confound(PartModel& model, const std::vector<std::size_t>& these,
   }
 }
 
-/// How much less names must cost than what they stand for: nothing where these are forms without a
-/// name that need as many values, clearly less where these are names that need fewer. A name with a
-/// place and a width follows many forms.
+/// How much less names must cost than the names they stand for: clearly less where they need more
+/// values, or where a form without a name is among them.
 double asked_of(const std::vector<Effect>& own, const std::vector<Effect>& names) {
-  constexpr double kTie = -1.0, kForm = 1.0, kSimpler = 3.0, kClearly = 9.0;
-  const bool from_names =
-      std::all_of(own.begin(), own.end(), [](const Effect& e) { return e.family->named; });
-  const bool more = values_of(names, true) > values_of(own, true);
-  if (std::any_of(names.begin(), names.end(), [](const Effect& e) { return !e.family->named; }))
-    return kClearly;
-  if (from_names) return more ? kClearly : kSimpler;
-  const bool flexible =
-      std::any_of(names.begin(), names.end(), [](const Effect& e) { return e.shape.size() > 1; });
-  return !flexible ? kForm : more ? kClearly : kTie;
+  constexpr double kSimpler = 3.0, kClearly = 9.0;
+  const bool with_form =
+      std::any_of(names.begin(), names.end(), [](const Effect& e) { return !e.family->named; });
+  return with_form || values_of(names, true) > values_of(own, true) ? kClearly : kSimpler;
 }
 
 void tell_likeliest_along(PartModel& model, int face) {
@@ -305,7 +298,11 @@ void tell_likeliest_along(PartModel& model, int face) {
     }
     these.push_back(e);
   }
-  if (these.empty()) return;
+  // (a form without a name stands where names were judged already: two names imitate many a form)
+  if (these.empty() || std::any_of(these.begin(), these.end(), [&](std::size_t e) {
+        return !model.effects[e].family->named;
+      }))
+    return;
   std::vector<Effect> own;
   for (const std::size_t e : these) own.push_back(model.effects[e]);
   std::vector<Effect> as_told = rest;
@@ -328,10 +325,24 @@ void tell_likeliest_along(PartModel& model, int face) {
     const std::vector<Effect> names(set.with.begin() + static_cast<std::ptrdiff_t>(rest.size()),
                                     set.with.end());
     if (set.cost > now - asked_of(own, names) || !are_sure(model, set.with, rest.size())) continue;
+    constexpr double kStillAlike = 12.0;
+    const bool still_alike = now - set.cost < kStillAlike;
     cost = set.cost;
+    std::map<const EffectFamily*, std::vector<int>> like;
+    for (const std::size_t e : these)
+      like[model.effects[e].family] = model.discovery.chosen[e].confounded;
     put_in_place_of(model, these, set.with);
     these.clear();
-    for (std::size_t e = rest.size(); e < model.effects.size(); ++e) these.push_back(e);
+    for (std::size_t e = rest.size(); e < model.effects.size(); ++e) {
+      these.push_back(e);
+      // (what the same name could not be told from before, it cannot be now)
+      if (const auto known = like.find(model.effects[e].family); known != like.end())
+        model.discovery.chosen[e].confounded = known->second;
+    }
+    if (still_alike) {
+      as_told.erase(as_told.begin(), as_told.begin() + static_cast<std::ptrdiff_t>(rest.size()));
+      confound(model, these, as_told, 0);
+    }
     break;
   }
   for (const NameSet& set : sets)
