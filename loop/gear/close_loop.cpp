@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "trueflank/base/number_text.h"
+#include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/gear/found_effects.h"
 #include "trueflank/loop/gear/iso_1328.h"
 #include "trueflank/loop/gear/local/far_values.h"
@@ -15,6 +16,7 @@
 #include "trueflank/loop/gear/part/odd_forms.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/part/records.h"
+#include "trueflank/loop/gear/part/single_teeth.h"
 #include "trueflank/loop/gear/part/structure_left.h"
 #include "trueflank/loop/gear/part_frame.h"
 #include "trueflank/loop/gear/random_error.h"
@@ -75,6 +77,15 @@ bool is_more_than_noise(const LoopResult& result, const RandomError& noise) {
   return result.after.held_out_rms > allowed * noise.held_out_um;
 }
 
+/// How likely noise of the size found makes so large an error by chance: of independent values.
+double p_of_more_than_noise(const LoopResult& result, const RandomError& noise) {
+  const bool any_held_out = result.held_out > 0;
+  const double times =
+      any_held_out ? result.after.held_out_rms / noise.held_out_um : result.after.rms / noise.um;
+  return f_tail(times * times, any_held_out ? result.held_out : result.observations,
+                result.observations);
+}
+
 LoopResult result_of(const FlankGeometry& geometry, const PartModel& model, const PointFit& fit,
                      const std::vector<float>& left_um, Makings makings) {
   LoopResult result;
@@ -102,11 +113,8 @@ LoopResult result_of(const FlankGeometry& geometry, const PartModel& model, cons
   const auto none = plain_fit(model)->errors({});
   const auto all = fit.errors(std::vector<bool>(model.effects.size(), true));
   result.before = {none.rms_um, none.held_out_rms_um, 0.0};
-  // One form of either flank: more of them would follow held-out values whatever these are.
-  constexpr std::size_t kMostFittedThere = 2;
   const PointFit::HeldOutBesideLocal held_out = fit.held_out_beside_local();
-  const bool fitted_there =
-      !held_out.fitted_there.empty() && held_out.fitted_there.size() <= kMostFittedThere;
+  const bool fitted_there = !shown_by_held_out_alone(model, held_out).empty();
   result.after = {all.rms_um, fitted_there ? held_out.rms_um : all.held_out_rms_um, 0.0};
   if (fitted_there)
     result.notes.push_back(
@@ -151,6 +159,7 @@ LoopResult result_of(const FlankGeometry& geometry, const PartModel& model, cons
         "rests on that, and no form of it is sure",
         any_held_out ? result.after.held_out_rms : result.after.rms,
         any_held_out ? " on held-out data" : "", any_held_out ? noise.held_out_um : noise.um);
+    result.structure_left_p_value = p_of_more_than_noise(result, noise);
   }
   return result;
 }

@@ -19,6 +19,7 @@
 #include "trueflank/loop/gear/part/names_beside_forms.h"
 #include "trueflank/loop/gear/part/odd_forms.h"
 #include "trueflank/loop/gear/part/one_form.h"
+#include "trueflank/loop/gear/part/one_tooth_or_gap.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/settled_names.h"
 #include "trueflank/loop/gear/part/single_teeth.h"
@@ -227,6 +228,100 @@ TEST(PiecesToldAsOne, BowsOfNeighbouringTeethThatAreAGroove) {
   ASSERT_EQ(pieces.told().size(), 1U) << pieces.text();
   EXPECT_EQ(pieces.told().front().shape[0], 9.0) << pieces.text();
   EXPECT_EQ(pieces.told().front().shape[1], 5.0) << pieces.text();
+}
+
+/// Heights and leans over the profile of both flanks of a tooth.
+std::vector<Effect> heights_and_leans(double tooth) {
+  std::vector<Effect> pieces;
+  for (const FlankChoice flank : {FlankChoice::kLeft, FlankChoice::kRight}) {
+    pieces.push_back(piece("unnamed_flank", {tooth}, flank));
+    pieces.push_back(piece("unnamed_tooth_form", {tooth, 1.0, 0.0, 0.0}, flank));
+  }
+  return pieces;
+}
+
+TEST(PiecesToldAsOne, HeightsAndLeansOfBothFlanksThatAreOneBentTooth) {
+  struct Made {
+    double nothing_at, opposite;
+  };
+  for (const Made& of : {Made{-1.0, 1.0}, Made{-1.0, 0.0}, Made{1.0, 0.0}}) {
+    const auto made = [=](auto&, const FlankSpot& s, auto&) {
+      return s.tooth != 5
+                 ? 0.0
+                 : 15.0 * (1.0 - of.nothing_at * s.u) * (of.opposite != 0.0 ? s.side : 1.0);
+    };
+    Pieces pieces(spur(16), grown(made), heights_and_leans(5.0), 6000);
+    tell_one_tooth_or_gap(*pieces);
+    ASSERT_EQ(pieces.told().size(), 1U) << pieces.text();
+    EXPECT_TRUE(pieces.has("unnamed_bent_tooth")) << pieces.text();
+    EXPECT_EQ(pieces.told().front().shape, (EffectShape{5.0, 0.0, of.nothing_at, 1.0, of.opposite}))
+        << pieces.text();
+  }
+}
+
+TEST(PiecesToldAsOne, AToothThatStandsAsideAndLeansByAnotherAmountIsNoBentTooth) {
+  const auto made = [](auto&, const FlankSpot& s, auto&) {
+    return s.tooth == 5 ? s.side * (24.0 + 8.0 * s.u) : 0.0;
+  };
+  Pieces pieces(
+      spur(16), grown(made),
+      {piece("unnamed_tooth_aside", {5.0, 1.0}), piece("unnamed_tooth_form", {5.0, 1.0, 0.0, 1.0})},
+      6000);
+  tell_one_tooth_or_gap(*pieces);
+  EXPECT_EQ(pieces.told().size(), 2U) << pieces.text();
+}
+
+TEST(PiecesToldAsOne, FlanksOfTwoTeethThatAreTheWallsOfOneGap) {
+  const std::vector<Effect> walls{piece("unnamed_flank", {16.0}, FlankChoice::kLeft),
+                                  piece("unnamed_flank", {1.0}, FlankChoice::kRight)};
+  for (const double right : {20.0, -20.0, 8.0}) {
+    const auto made = [=](auto&, const FlankSpot& s, auto&) {
+      return s.tooth == 16 && s.side > 0 ? 20.0 : s.tooth == 1 && s.side < 0 ? right : 0.0;
+    };
+    Pieces pieces(spur(16), grown(made), walls, 6000);
+    tell_one_tooth_or_gap(*pieces);
+    if (right == 8.0) {  // (walls of two sizes are no one cause)
+      EXPECT_EQ(pieces.told().size(), 2U) << pieces.text();
+      continue;
+    }
+    ASSERT_EQ(pieces.told().size(), 1U) << pieces.text();
+    EXPECT_TRUE(pieces.has("unnamed_gap")) << pieces.text();
+    EXPECT_EQ(pieces.told().front().shape, (EffectShape{16.0, right < 0.0 ? 1.0 : 0.0}));
+  }
+}
+
+TEST(PiecesToldAsOne, FlanksThatAreOfTwoGapsStayTwo) {
+  const auto made = [](auto&, const FlankSpot& s, auto&) {
+    return (s.tooth == 5 && s.side > 0) || (s.tooth == 9 && s.side < 0) ? 20.0 : 0.0;
+  };
+  Pieces pieces(spur(16), grown(made),
+                {piece("unnamed_flank", {5.0}, FlankChoice::kLeft),
+                 piece("unnamed_flank", {9.0}, FlankChoice::kRight)},
+                6000);
+  tell_one_tooth_or_gap(*pieces);
+  EXPECT_EQ(pieces.told().size(), 2U) << pieces.text();
+}
+
+TEST(PiecesToldAsOne, SpotsOfNeighbouringTeethThatAreOneSwelling) {
+  const MadeGear gear = spur(24);
+  const auto made = [](auto&, const FlankSpot& s, auto&) {
+    const auto bell = [](double off) { return std::exp(-off * off); };
+    return s.side > 0 ? 30.0 * bell((s.tooth - 9.3) / 1.6) * bell((s.u - 0.2) / 0.45) *
+                            bell((s.v + 0.1) / 0.5)
+                      : 0.0;
+  };
+  const double diameter = 2.0 * gear.reference(), height = 0.45 * gear.face_mm;
+  std::vector<Effect> spots;
+  for (const double tooth : {8.0, 9.0, 10.0, 11.0})
+    spots.push_back(piece("unnamed_spot",
+                          {tooth, diameter, height, 0.8 * gear.module_mm, 0.5 * gear.face_mm, 1.0},
+                          FlankChoice::kLeft));
+  Pieces pieces(gear, grown(made), spots, 20000);
+  tell_one_tooth_or_gap(*pieces);
+  ASSERT_EQ(pieces.told().size(), 1U) << pieces.text();
+  EXPECT_TRUE(pieces.has("unnamed_swelling_over_teeth")) << pieces.text();
+  EXPECT_NEAR(pieces.told().front().shape[0], 9.3, 0.2) << pieces.text();
+  EXPECT_NEAR(pieces.told().front().shape[1], 1.6, 0.3) << pieces.text();
 }
 
 TEST(PiecesToldAsOne, TwoPartsOfTheGearThatLeanAlike) {

@@ -258,6 +258,19 @@ TEST(SingleValues, OneFlankOfOneToothStandsOutOfAnIndex) {
   EXPECT_LE(others, 1);
 }
 
+TEST(SingleValues, TwoWallsOfAGapInAnIndexAreToldOfTheGap) {
+  int found = 0;
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    loop::InspectionData data = index_with(spur(30), seed);
+    for (loop::InspectionRow& row : data.rows)
+      if (row.tooth == (row.flank == Flank::kLeft ? 12 : 13)) row.deviation_um += 9.0;
+    const auto result = close(spur(30), data);
+    if (result.effects.size() == 1)
+      found += tells(result, "the gap between teeth 12 and 13 alone is too narrow") ? 1 : 0;
+  }
+  EXPECT_GE(found, 7);
+}
+
 // Each value of an index has a share in its zero, and so a little of every column: that is no tooth
 // of its own.
 TEST(SingleValues, AToothsIntervalIsThatOfItsTwoValues) {

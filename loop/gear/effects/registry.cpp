@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "trueflank/loop/gear/effects/one_tooth.h"
+
 namespace trueflank::loop {
 
 const std::vector<EffectFamily>& effect_library() {
@@ -59,6 +61,9 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_scallops(),
         unnamed_walking_waves(),
         unnamed_tooth_form(),
+        unnamed_bent_tooth(),
+        unnamed_gap(),
+        unnamed_swelling_over_teeth(),
         unnamed_sector(),
         unnamed_soft_sector(),
         unnamed_bow(),

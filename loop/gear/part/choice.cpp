@@ -50,6 +50,27 @@ void select(PartModel& model) {
     model.discovery.chosen[told + i].p_value = model.given_p_values[i];
 }
 
+/// Means of patches know a form with a free shape by its mean there: of a narrow hollow, or of a
+/// relief that begins late, patches leave what the single values do not. What looks like another
+/// shape of something found, and takes nothing out of the single values, is not left.
+void ask_single_values(PartModel& model) {
+  constexpr double kNothing = 16.0;  // chi-square a column
+  const int group = model.discovery.most_likely_left;
+  if (group < 0 || model.discovery.p_left > kNextLevel) return;
+  const Effect& left = model.candidates[static_cast<std::size_t>(group)];
+  if (!left.family->shape_is_continuous ||
+      std::none_of(model.effects.begin(), model.effects.end(),
+                   [](const Effect& effect) { return effect.family->shape_is_continuous; }))
+    return;
+  std::vector<Effect> with = model.effects;
+  with.push_back(left);
+  const double gain =
+      fit_of(model, model.effects)->residual_square() - fit_of(model, with)->residual_square();
+  if (gain > kNothing * left.columns()) return;
+  model.discovery.p_left = 1.0;
+  model.discovery.most_likely_left = -1;
+}
+
 /// What the choice leaves and what it is confounded with, which the rounds before the last are not
 /// asked.
 void finish_choice(PartModel& model) {
@@ -58,6 +79,7 @@ void finish_choice(PartModel& model) {
   model.choice.reset();
   model.discovery.p_left = told.p_left;
   model.discovery.most_likely_left = told.most_likely_left;
+  ask_single_values(model);
   model.left_beside = model.effects;
   for (std::size_t i = 0; i < told.chosen.size(); ++i) {
     ChosenGroup& record = model.discovery.chosen[model.options.given.size() + i];
@@ -244,6 +266,7 @@ void ask_what_is_left(PartModel& model) {
   model.problem = {};
   model.discovery.p_left = asked.p_left;
   model.discovery.most_likely_left = asked.most_likely_left;
+  ask_single_values(model);
   model.left_beside = model.effects;
 }
 

@@ -15,6 +15,7 @@
 #include "trueflank/loop/gear/part/names_beside_forms.h"
 #include "trueflank/loop/gear/part/odd_forms.h"
 #include "trueflank/loop/gear/part/one_form.h"
+#include "trueflank/loop/gear/part/one_tooth_or_gap.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/runs_along.h"
 #include "trueflank/loop/gear/part/sectors.h"
@@ -376,6 +377,7 @@ void tell_parts_of_a_form(PartModel& model) {
   tell_two_names_as_one(model);
   tell_one_flank_as_two_names_of_all(model);
   tell_teeth_of_one_flank(model);
+  tell_one_tooth_or_gap(model);
 }
 
 const EffectFamily* form_instead(const PartModel& model, std::size_t e) {

@@ -46,6 +46,20 @@ void look_at_single_teeth(PartModel& model) {
   drop_teeth_within_the_tails(model);
 }
 
+std::vector<std::size_t> shown_by_held_out_alone(const PartModel& model,
+                                                 const PointFit::HeldOutBesideLocal& held_out) {
+  constexpr std::size_t kMost = 2;
+  const std::vector<std::size_t>& these = held_out.fitted_there;
+  if (these.size() <= kMost) return these;
+  const double tooth =
+      model.effects[these.front()].shape.empty() ? kNaN : model.effects[these.front()].shape[0];
+  const bool of_one_tooth = std::all_of(these.begin(), these.end(), [&](std::size_t e) {
+    const Effect& effect = model.effects[e];
+    return (effect.family->local || effect.family->is_of_one_tooth) && effect.shape[0] == tooth;
+  });
+  return of_one_tooth ? these : std::vector<std::size_t>();
+}
+
 void look_at_sizes(PartModel& model) {
   constexpr double kSure = 1e-3, kTie = 4.0;
   const auto sizes =

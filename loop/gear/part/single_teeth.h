@@ -7,6 +7,12 @@ namespace trueflank::loop {
 
 /// Single teeth once more with the hold-out: what stands in one tooth cannot be learnt from others.
 void look_at_single_teeth(PartModel& model);
+/// The effects that held-out values alone show: what stands on one held-out tooth no other value
+/// can foretell. Empty where there are none, and where there are so many that they would follow
+/// held-out values whatever these are: more than one form of either flank, but for forms of one and
+/// the same tooth.
+[[nodiscard]] std::vector<std::size_t> shown_by_held_out_alone(
+    const PartModel& model, const PointFit::HeldOutBesideLocal& held_out);
 /// Sizes are few and know their own error: what they say of thickness, which traces with zeros of
 /// their own cannot show, is judged by chi-square.
 void look_at_sizes(PartModel& model);
