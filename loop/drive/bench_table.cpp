@@ -292,45 +292,12 @@ class TableMaker {
     });
   }
 
-  /// Set points of one direction and a sixth of its loads that deliver more than they take.
   void look_for_gains() {
-    struct Cell {
-      double excess = 0.0, taken = 0.0, count = 0.0;
-      std::map<int, std::pair<double, int>> units;
-      double speed = 0.0;
-    };
-    std::map<std::tuple<bool, int, int>, Cell> cells;  // direction, load, file
-    for (const BenchPoint& p : table_.points) {
-      const int sixth = std::min(5, static_cast<int>(6.0 * p.load_nm / table_.most_load_nm));
-      Cell& cell = cells[{p.forward, sixth, p.file}];
-      const double lossless = p.forward ? model_.ratio * p.driving_nm : p.driving_nm / model_.ratio;
-      cell.excess += p.driven_nm - lossless;
-      cell.taken += lossless;
-      cell.count += 1.0;
-      auto& [sum, rows] = cell.units[p.unit];
-      sum += p.driven_nm - lossless;
-      ++rows;
-    }
-    for (const auto& [key, cell] : cells) {
-      if (cell.units.size() < 3 || !(cell.excess > 0.0)) continue;
-      const double mean = cell.excess / cell.count;
-      double spread = 0.0;
-      for (const auto& [unit, part] : cell.units) {
-        const double off = part.first - part.second * mean;
-        spread += off * off;
-      }
-      const double units = static_cast<double>(cell.units.size());
-      const double error = std::sqrt(spread * units / (units - 1.0)) / cell.count;
-      if (mean < 4.5 * error || cell.excess < 2e-3 * cell.taken) continue;
-      const std::string text = printed(
-                    "%s, the apparent efficiency at %s load is %.3f (+-%.3f): no gearbox delivers more "
-                    "than it takes",
-                    std::get<0>(key) ? "forward" : "backward",
-                    std::get<1>(key) <= 1 ? "low" : std::get<1>(key) <= 3 ? "middle" : "high",
-                    1.0 + cell.excess / cell.taken, 2.0 * error * cell.count / cell.taken);
-      table_.impossible = Impossible::kEfficiencyAboveOne;
-      table_.impossible_text = data_.files[std::get<2>(key)] + ": " + text;
-    }
+    const PowerGained gained = power_gained(table_.points, model_.ratio, {});
+    if (gained.file < 0) return;
+    table_.impossible = Impossible::kEfficiencyAboveOne;
+    table_.impossible_text =
+        data_.files[static_cast<std::size_t>(gained.file)] + ": " + gained.text;
   }
 
   const DriveModel& model_;
@@ -339,6 +306,53 @@ class TableMaker {
 };
 
 }  // namespace
+
+PowerGained power_gained(const std::vector<BenchPoint>& points, double ratio,
+                         const std::vector<double>& taken_off_nm) {
+  struct Cell {
+    double excess = 0.0, taken = 0.0, count = 0.0;
+    std::map<int, std::pair<double, int>> units;
+  };
+  double most_load_nm = 0.0;
+  for (const BenchPoint& p : points) most_load_nm = std::max(most_load_nm, p.load_nm);
+  std::map<std::tuple<bool, int, int>, Cell> cells;  // direction, load, file
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const BenchPoint& p = points[i];
+    const int sixth = std::min(5, static_cast<int>(6.0 * p.load_nm / most_load_nm));
+    Cell& cell = cells[{p.forward, sixth, p.file}];
+    const double lossless = p.forward ? ratio * p.driving_nm : p.driving_nm / ratio;
+    const double excess = p.driven_nm - lossless - (taken_off_nm.empty() ? 0.0 : taken_off_nm[i]);
+    cell.excess += excess;
+    cell.taken += lossless;
+    cell.count += 1.0;
+    auto& [sum, rows] = cell.units[p.unit];
+    sum += excess;
+    ++rows;
+  }
+  PowerGained gained;
+  for (const auto& [key, cell] : cells) {
+    if (cell.units.size() < 3 || !(cell.excess > 0.0)) continue;
+    const double mean = cell.excess / cell.count;
+    double spread = 0.0;
+    for (const auto& [unit, part] : cell.units) {
+      const double off = part.first - part.second * mean;
+      spread += off * off;
+    }
+    const double units = static_cast<double>(cell.units.size());
+    const double error = std::sqrt(spread * units / (units - 1.0)) / cell.count;
+    if (mean < 4.5 * error || cell.excess < 2e-3 * cell.taken) continue;
+    gained.text = printed(
+        "%s, the apparent efficiency at %s load is %.3f (+-%.3f): no gearbox delivers more than it "
+        "takes",
+        std::get<0>(key) ? "forward" : "backward",
+        std::get<1>(key) <= 1   ? "low"
+        : std::get<1>(key) <= 3 ? "middle"
+                                : "high",
+        1.0 + cell.excess / cell.taken, 2.0 * error * cell.count / cell.taken);
+    gained.file = std::get<2>(key);
+  }
+  return gained;
+}
 
 bool BenchTable::has(bool forward) const {
   return std::any_of(points.begin(), points.end(),

@@ -78,6 +78,16 @@ inline constexpr int kBenchFolds = 8;
 /// change inside a direction, a side without any torque, fewer than 8 rows.
 [[nodiscard]] ResultAll<BenchTable> make_bench_table(const DriveModel& model, const BenchData& data);
 
+/// Set points of one direction and a sixth of its loads that deliver more than they take: of which
+/// file, and in words. `taken_off_nm`: of every row, what its sensors read too much on the driven
+/// side; empty: nothing.
+struct PowerGained {
+  int file = -1;  ///< -1: nowhere
+  std::string text;
+};
+[[nodiscard]] PowerGained power_gained(const std::vector<BenchPoint>& points, double ratio,
+                                       const std::vector<double>& taken_off_nm);
+
 /// @name Steps of it, for its own use and tests
 /// @{
 /// Magnitudes: a side whose torques all come with a minus is turned, and told. Errors: mixed signs.

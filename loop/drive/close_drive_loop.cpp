@@ -9,6 +9,7 @@
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/drive/bench_remainder.h"
+#include "trueflank/loop/drive/bench_scatter.h"
 #include "trueflank/loop/drive/bench_visits.h"
 #include "trueflank/loop/drive/drive_selection.h"
 #include "trueflank/loop/drive/exchanged_effects.h"
@@ -76,7 +77,7 @@ class DriveReport {
     const bool run_leaves_less = hold_exchanged_effects(selection_, effects, r.effects);
     list_observable(outcome, r);
     r.measure_next = runs_that_separate(selection_.table(), r.effects);
-    judge(outcome, remainder, r);
+    judge(outcome, remainder, all, r);
     if (run_leaves_less && r.verdict == Verdict::kExplained) {
       r.verdict = Verdict::kPartlyExplained;
       r.structure_left =
@@ -85,6 +86,9 @@ class DriveReport {
     }
     if (r.verdict == Verdict::kNoEffect) say_where_set_points_lie_off(left, r);
     if (r.verdict != Verdict::kPartlyExplained) say_what_neighbours_share(left, effects, r);
+    if (std::string scatter = where_it_scatters(selection_.table(), selection_.model().ratio, left);
+        r.verdict != Verdict::kPartlyExplained && !scatter.empty())
+      r.notes.push_back(std::move(scatter));
     done.before_nm.assign(selection_.value_nm().data(),
                           selection_.value_nm().data() + selection_.value_nm().size());
     done.after_nm.assign(left.data(), left.data() + left.size());
@@ -127,7 +131,8 @@ class DriveReport {
         r.not_observable.push_back(family.id);
   }
 
-  void judge(const DriveOutcome& outcome, const BenchRemainder& remainder, LoopResult& r) {
+  void judge(const DriveOutcome& outcome, const BenchRemainder& remainder, const DriveFit& all,
+             LoopResult& r) {
     constexpr double kLeft = 0.01, kSureThoughDenied = 0.0015;
     const DiscoveryResult& d = outcome.discovery;
     const bool left = d.p_left <= kLeft && d.most_likely_left >= 0;
@@ -162,7 +167,7 @@ class DriveReport {
           "found in better than others",
           r.after.held_out_rms / r.noise);
     }
-    judge_impossible(outcome.effects, r);
+    judge_impossible(all, r);
   }
 
   /// A quarter above the noise, and as much more as the rms of so few rows may scatter.
@@ -308,9 +313,33 @@ class DriveReport {
                              correlation_of_visits(opposite, of_visit))};
   }
 
-  void judge_impossible(const std::vector<DriveEffect>& effects, LoopResult& r) const {
+  /// True where both directions were run and no power is gained once what the sensors read wrong is
+  /// taken off. A scale or a zero that has a name stands for a friction as well: that stays open.
+  [[nodiscard]] bool readings_explain_the_gain(const DriveFit& all) const {
+    const BenchTable& table = selection_.table();
+    if (!table.has(true) || !table.has(false)) return false;
+    std::vector<double> taken_off(table.points.size(), 0.0);
+    bool any = false;
+    for (std::size_t e = 0; e < all.effects().size(); ++e) {
+      if (all.effects()[e].family->is_loss) continue;
+      if (all.effects()[e].family->named) return false;
+      any = true;
+      const Eigen::VectorXd moved = all.explained_nm(static_cast<int>(e));
+      for (std::size_t i = 0; i < taken_off.size(); ++i)
+        taken_off[i] += moved[static_cast<Eigen::Index>(i)];
+    }
+    return any && power_gained(table.points, selection_.model().ratio, taken_off).file < 0;
+  }
+
+  void judge_impossible(const DriveFit& all, LoopResult& r) const {
+    const std::vector<DriveEffect>& effects = all.effects();
     if (selection_.table().impossible == Impossible::kNothing) return;
     if (selection_.table().impossible == Impossible::kEfficiencyAboveOne) {
+      if (r.verdict == Verdict::kExplained && readings_explain_the_gain(all)) {
+        r.notes.push_back(selection_.table().impossible_text +
+                          "; with what the sensors read wrong taken off, none is gained");
+        return;
+      }
       r.verdict = Verdict::kPartlyExplained;
       const bool losses = std::any_of(effects.begin(), effects.end(),
                                       [](const auto& e) { return e.family->is_loss; });

@@ -233,6 +233,10 @@ struct DriveFamily : EffectFacts {
   /// The shape of what is there at times and at times not, of the places of the run where it begins
   /// and ends in turn, that a scan proposes; empty: it takes none.
   std::function<DriveShape(double what, const std::vector<double>& changes)> shape_of_states = {};
+  /// What it leaves falls in steps over its place: it is sought among all of them.
+  bool falls_in_steps = false;
+  /// It jumps once in the course of the run, at its second shape value (-1 ... 1 over the run).
+  bool jumps_in_run = false;
   /// The shape of a slow course of the run, a polynomial, that a scan proposes; empty: it takes none.
   std::function<DriveShape(double what, int degree)> shape_of_wander = {};
   /// @}
@@ -261,6 +265,8 @@ struct DriveFamily : EffectFacts {
   /// Shapes that hold all that it can be: of its kind, or (nullptr) of all kinds, to be found by.
   std::function<std::vector<DriveShape>(const DriveContext&, const DriveShape* about)> all_shapes =
       {};
+  /// False of a shape of which the most stands where nothing was run; empty: none is so.
+  std::function<bool(const DriveContext&, const DriveShape&)> shows = {};
   /// True of a place at which something was run: of shapes that explain as much it is told before
   /// others; empty: none is.
   std::function<bool(const DriveContext&, const DriveShape&)> was_run = {};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "trueflank/geometry/linear_equations.h"
@@ -272,6 +273,43 @@ DriveShape states_beside(const DriveContext& context, const Eigen::VectorXd& val
       shape[0], changes_of_states(context, left, shape[0], rows, {shape.begin() + 1, shape.end()}));
 }
 
+/// A jump between two rows that the fit saw may be anywhere between them: where those that are
+/// locked away say. The fit is the same.
+DriveShape jump_beside_all(const DriveContext& context, const Eigen::VectorXd& value,
+                           const std::vector<DriveEffect>& effects, std::size_t effect) {
+  const auto& points = context.table.points;
+  const DriveFit fit(context, value, effects, FitRows::kTraining);
+  const Eigen::VectorXd left =
+      value - fit.explained_nm() + fit.explained_nm(static_cast<int>(effect));
+  const double amount = fit.coefficients()[fit.first_column(static_cast<int>(effect))];
+  const auto after = std::find_if(points.begin(), points.end(), [&](const BenchPoint& p) {
+    return 2.0 * p.taken - 1.0 > effects[effect].shape[1];
+  });
+  auto first = after, last = after;  // of the rows about it that were locked away
+  while (first != points.begin() && std::prev(first)->fold == 0) --first;
+  while (last != points.end() && last->fold == 0) ++last;
+  DriveShape best = effects[effect].shape, shape = best;
+  if (first == last) return best;
+  double least = 1e300;
+  for (auto at = first;; ++at) {
+    if (at != points.begin() && at != points.end()) {
+      shape[1] = std::prev(at)->taken + at->taken - 1.0;
+      double square = 0.0, one = 0.0;
+      for (auto p = first; p != last; ++p) {
+        effects[effect].family->evaluate(context, *p, shape, &one);
+        const double off = (left[p - points.begin()] - amount * one) / p->sigma_nm;
+        square += off * off;
+      }
+      if (square < least) {
+        least = square;
+        best = shape;
+      }
+    }
+    if (at == last) break;
+  }
+  return best;
+}
+
 }  // namespace
 
 void refine_drive_shapes(const DriveContext& context, const Eigen::VectorXd& value, FitRows rows,
@@ -338,10 +376,13 @@ void refine_drive_shapes(const DriveContext& context, const Eigen::VectorXd& val
 std::vector<DriveEffect> with_states_of_all_rows(const DriveContext& context,
                                                  const Eigen::VectorXd& value,
                                                  std::vector<DriveEffect> effects) {
-  for (std::size_t e = 0; e < effects.size(); ++e)
+  for (std::size_t e = 0; e < effects.size(); ++e) {
     if (effects[e].family->shape_of_states)
       effects[e].shape = states_beside(
           context, value, DriveFit(context, value, effects, FitRows::kTraining), e, FitRows::kAll);
+    if (effects[e].family->jumps_in_run)
+      effects[e].shape = jump_beside_all(context, value, effects, e);
+  }
   return effects;
 }
 

@@ -81,6 +81,7 @@ DriveOutcome DriveSelection::choose() {
   absorb_the_scale(outcome);
   tell_as_one_form(outcome);
   absorb_the_scale(outcome);
+  tell_waves(outcome);
   tell_as_one_place_of_a_turn(outcome);
   follow_the_run(outcome);
   prefer_plainer_names(outcome);

@@ -160,9 +160,14 @@ class DriveSelection {
                               bool with_load, std::vector<OneForm>& sets);
   /// What a set leaves, and its figures; false where an amount cannot be what it is called.
   [[nodiscard]] bool fits(OneForm& set) const;
+  /// What its training leaves of all rows.
+  [[nodiscard]] double square_of_all(const OneForm& set) const;
   /// Of every kind the form over a quantity that takes most off beside these effects.
   [[nodiscard]] std::vector<DriveEffect> likeliest_forms(const std::vector<DriveEffect>& base,
                                                          double over) const;
+  /// A wave over the angle may be in proportion to the load, grow over the run, or come by the
+  /// clock: told so where that leaves surely less than it and the waves beside it.
+  void tell_waves(DriveOutcome& outcome);
   /// Parts of one turn, and the waves that make one up, told as one place of it.
   void tell_as_one_place_of_a_turn(DriveOutcome& outcome);
   /// `name_is_open`: the names it stands for explain as much.

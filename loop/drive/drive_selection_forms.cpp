@@ -24,6 +24,35 @@ bool is_piece_over(const DriveEffect& effect, double over) {
   return family.piece_over && family.piece_over(effect.shape) == over;
 }
 
+/// What is there at times and at times not may follow something that was recorded, and a jump of
+/// the run the temperature in it.
+bool is_of_the_run(const DriveEffect& effect, double over) {
+  const DriveFamily& family = *effect.family;
+  return static_cast<bool>(family.shape_of_states) || (over == 2.0 && family.jumps_in_run);
+}
+
+/// Every change of what is there at times is a figure.
+int size_with_changes(const std::vector<DriveEffect>& effects) {
+  int size = size_of(effects);
+  for (const DriveEffect& e : effects)
+    if (e.family->shape_of_states) size += static_cast<int>(e.shape.size()) - 1;
+  return size;
+}
+
+/// Load times speed, beside load, speed and temperature.
+constexpr double kOverPower = 3.0;
+
+/// What load and speed make together may be pieces of one form over their product.
+bool is_piece_over_power(const DriveEffect& effect) {
+  const DriveFamily& family = *effect.family;
+  if (family.named) return false;
+  const double over = family.over         ? family.over(effect.shape)
+                      : family.piece_over ? family.piece_over(effect.shape)
+                                          : kOverNothing;
+  return over == 0.0 || over == 1.0 || over == kOverSeveral || over == kOverPower ||
+         (family.beside_load && family.beside_load(effect.shape) == 1.0);
+}
+
 /// True of a description in proportion to the load that has a course over this quantity.
 bool is_beside_load(const DriveEffect& effect, double over) {
   const DriveFamily& family = *effect.family;
@@ -67,6 +96,9 @@ bool is_companion(const DriveEffect& effect, double over);
 /// A name of the same course: its figures may only have mended the pieces.
 bool is_named_over(const DriveEffect& effect, double over) {
   const DriveFamily& family = *effect.family;
+  if (over == kOverPower)
+    return family.named && family.preference > 0 &&
+           (family.follows == "load" || family.follows == "speed");
   return family.named && family.preference > 0 &&
          family.follows == (over == 0.0   ? "load"
                             : over == 1.0 ? "speed"
@@ -86,10 +118,12 @@ std::vector<DriveEffect> DriveSelection::likeliest_forms(const std::vector<Drive
   const BesideEffects beside(here, value_, base, FitRows::kTraining);
   std::vector<DriveEffect> forms;
   for (const DriveFamily& family : drive_library()) {
-    if (!family.all_shapes || !family.over || !may_be_there(family)) continue;
+    const bool jumps = over == 2.0 && family.jumps_in_run;
+    if (!family.all_shapes || (!family.over && !jumps) || !may_be_there(family)) continue;
     std::map<int, std::pair<double, DriveShape>> likeliest;  // of every kind
     for (const DriveShape& shape : family.all_shapes(here, nullptr)) {
-      if (family.over(shape) != over) continue;
+      if (!jumps && family.over(shape) != over) continue;
+      if (family.shows && !family.shows(here, shape)) continue;
       const double gain = beside.with({&family, shape}).gain;
       if (!(gain > 0.0)) continue;
       auto& [most, best] = likeliest[family.kind ? family.kind(shape) : 0];
@@ -97,13 +131,19 @@ std::vector<DriveEffect> DriveSelection::likeliest_forms(const std::vector<Drive
       most = gain;
       best = shape;
     }
+    // (two times: the second is as fine as the first one's place is near)
+    for (int round = 0; round < 2 && family.falls_in_steps; ++round)
+      for (auto& [kind, best] : likeliest)
+        for (DriveShape& shape : family.all_shapes(here, &best.second))
+          if (const double gain = beside.with({&family, shape}).gain; gain > best.first)
+            best = {gain, shape};
     for (const auto& [kind, best] : likeliest)
       for (DriveShape& shape : family.kin_shapes ? family.kin_shapes(best.second)
                                                  : std::vector<DriveShape>{best.second})
         forms.push_back({&family, shape});
   }
   // A name that does the same goes before; warmth and the course of the run are asked elsewhere.
-  if (over == 2.0) return forms;
+  if (over == 2.0 || over == kOverPower) return forms;
   std::map<const DriveFamily*, std::pair<double, DriveEffect>> names;
   for (std::size_t g = 0; g < candidates_.size(); ++g) {
     const DriveEffect& candidate = candidates_[g];
@@ -120,12 +160,18 @@ std::vector<DriveEffect> DriveSelection::likeliest_forms(const std::vector<Drive
 }
 
 void DriveSelection::tell_as_one_form(DriveOutcome& outcome) {
-  for (const double over : {0.0, 1.0, 2.0}) {
+  for (const double over : {0.0, 1.0, 2.0, kOverPower}) {
+    // (what has one course over load or speed was told so)
+    if (over == kOverPower &&
+        std::count_if(outcome.effects.begin(), outcome.effects.end(), is_piece_over_power) < 1)
+      continue;
     const bool with_load =
-        over == 0.0 || std::any_of(outcome.effects.begin(), outcome.effects.end(),
-                                   [&](const DriveEffect& e) { return is_beside_load(e, over); });
+        over == 0.0 || over == kOverPower ||
+        std::any_of(outcome.effects.begin(), outcome.effects.end(),
+                    [&](const DriveEffect& e) { return is_beside_load(e, over); });
     const auto piece = [&](const DriveEffect& e) {
-      return is_piece_over(e, over) || is_beside_load(e, over);
+      if (over == kOverPower) return is_piece_over_power(e);
+      return is_piece_over(e, over) || is_beside_load(e, over) || is_of_the_run(e, over);
     };
     const bool pieces = std::any_of(outcome.effects.begin(), outcome.effects.end(), piece);
     // Names that make up a form together: of several that do what one form does each mends what the
@@ -133,7 +179,7 @@ void DriveSelection::tell_as_one_form(DriveOutcome& outcome) {
     const auto names = std::count_if(outcome.effects.begin(), outcome.effects.end(),
                                      [&](const DriveEffect& e) { return is_named_over(e, over); });
     if (!pieces && (over == 2.0 || names < 2)) continue;
-    OneForm now{.effects = outcome.effects, .from = {}, .size = outcome.size()};
+    OneForm now{.effects = outcome.effects, .from = {}, .size = size_with_changes(outcome.effects)};
     const DriveContext here = context();
     now.square = DriveFit(here, value_, now.effects, FitRows::kTraining).residual_square();
     std::vector<OneForm> sets;
@@ -173,7 +219,11 @@ void DriveSelection::tell_as_one_form(DriveOutcome& outcome) {
       if (saved >= 0 && now.has_a_place() && set.begins_nowhere()) room += OneForm::kAPlace;
       if (more > noise * room) continue;
       OneForm const*& of_kind = set.begins_nowhere() ? nowhere : best;
-      if (of_kind == nullptr || set.figure(noise) < of_kind->figure(noise)) of_kind = &set;
+      if (of_kind == nullptr || set.figure(noise) < of_kind->figure(noise) - OneForm::kTheSame)
+        of_kind = &set;
+      else if (set.figure(noise) < of_kind->figure(noise) + OneForm::kTheSame &&
+               square_of_all(set) < square_of_all(*of_kind))
+        of_kind = &set;
     }
     if (nowhere != nullptr &&
         (best == nullptr ||
@@ -249,6 +299,18 @@ void DriveSelection::add_sets_with_one_form(const DriveOutcome& outcome, const O
   }
 }
 
+double DriveSelection::square_of_all(const OneForm& set) const {
+  const DriveContext here = context();
+  const Eigen::VectorXd left =
+      value_ - DriveFit(here, value_, set.effects, FitRows::kTraining).explained_nm();
+  double square = 0.0;
+  for (std::size_t i = 0; i < table_.points.size(); ++i) {
+    const double off = left[static_cast<Eigen::Index>(i)] / table_.points[i].sigma_nm;
+    square += off * off;
+  }
+  return square;
+}
+
 bool DriveSelection::fits(OneForm& set) const {
   const DriveContext here = context();
   const DriveFit fit(here, value_, set.effects, FitRows::kTraining);
@@ -257,9 +319,10 @@ bool DriveSelection::fits(OneForm& set) const {
     const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
     if ((family.only_positive && !(b > 0.0)) || (family.plausible && !family.plausible(model_, b)))
       return false;
+    if (family.shows && !family.shows(here, set.effects[e].shape)) return false;
   }
   set.square = fit.residual_square();
-  set.size = size_of(set.effects);
+  set.size = size_with_changes(set.effects);
   const DriveState state = state_of(fit);
   return rubs_both_ways(state) && every_mesh_rubs(state);
 }

@@ -259,21 +259,45 @@ class Describer {
     std::erase_if(found.terms, [&](const Term& t) {
       return !said.insert(t.text).second && t.amplitude() < t.half_width;
     });
-    found.description = "a loss at the input ";
+    // The same sign as a reading in both directions.
+    const bool reads = only_reads(members);
+    found.description = reads ? "a reading of the output's torque " : "a loss at the input ";
     bool first = true;
-    for (const Term& t : found.terms) {
+    for (const Term& term : found.terms) {
+      Term t = term;
+      const std::string opposite = ", opposite in the two directions";
+      if (const auto at = t.text.find(opposite); reads && at != std::string::npos)
+        t.text.erase(at, opposite.size());
       if (found.description.find(t.text) != std::string::npos) continue;
       found.description += (first ? "" : "; and ") + t.text;
       first = false;
     }
     found.parameters = parameters_of_terms(found.terms, order, "amplitude_nm", order != 0.0);
-    found.description +=
-        order != 0.0 ? where_a_wave_is_most(found.terms.front(), order) : where_it_is_most(members);
+    found.description += order != 0.0 ? where_a_wave_is_most(found.terms.front(), order, reads)
+                                      : where_it_is_most(members);
+    if (reads) found.description += " (the same sign in both directions: a reading, no loss)";
+  }
+
+  /// True of courses and waves that are opposite in the two directions, as a sensor's are.
+  [[nodiscard]] bool only_reads(const std::vector<int>& members) const {
+    return std::all_of(members.begin(), members.end(), [&](int e) {
+      const DriveEffect& effect = s_.all.effects()[e];
+      const DriveFamily& family = *effect.family;
+      if (family.named || family.stands_alone) return false;
+      if (!family.is_loss) return true;
+      const std::vector<DriveShape> terms = family.term_shapes(effect.shape);
+      return std::all_of(terms.begin(), terms.end(),
+                         [](const DriveShape& term) { return term[4] != 0.0; });
+    });
   }
 
   /// At which angle of the input the loss is most.
-  [[nodiscard]] static std::string where_a_wave_is_most(const Term& term, double order) {
-    const double most = deg_from_rad(std::atan2(term.sin, term.cos)) / order, every = 360.0 / order;
+  [[nodiscard]] static std::string where_a_wave_is_most(const Term& term, double order,
+                                                        bool reads) {
+    // (forward a loss reads less)
+    const double sign = reads ? -1.0 : 1.0;
+    const double most = deg_from_rad(std::atan2(sign * term.sin, sign * term.cos)) / order,
+                 every = 360.0 / order;
     // What takes longer than a turn is counted in turns.
     if (every > 361.0)
       return printed(", most %.3g turns of the input", (most < 0.0 ? most + every : most) / 360.0) +
@@ -309,8 +333,12 @@ class Describer {
       }
       run = run || (!any && !effect.family->piece_over);
     }
-    for (Eigen::Index i = 0; i < lost.size(); ++i)
-      lost[i] /= -s_.context.lever(points[static_cast<std::size_t>(i)]);
+    const bool reads = only_reads(members);
+    for (Eigen::Index i = 0; i < lost.size(); ++i) {
+      const BenchPoint& p = points[static_cast<std::size_t>(i)];
+      lost[i] /= reads ? s_.context.misread(p, false) : -s_.context.lever(p);
+    }
+    directions = directions && !reads;
     Eigen::Index low = 0, high = 0;
     lost.minCoeff(&low);
     lost.maxCoeff(&high);
@@ -396,7 +424,8 @@ class Describer {
     const DriveFamily& family = *s_.all.effects()[members.front()].family;
     if (found.named && family.base && !told)
       text += printed(" instead of %.3g as designed", family.base(s_.context));
-    return text + consequence(family, moved) + action(found, family);
+    const bool reads = !family.is_loss || only_reads(members);
+    return text + consequence(reads, moved) + action(found, family);
   }
 
   /// What to do about it, once what would look the same is ruled out.
@@ -415,8 +444,7 @@ class Describer {
   }
 
   /// What it does to the efficiency, in points of it, where the drive is loaded.
-  [[nodiscard]] std::string consequence(const DriveFamily& family,
-                                        const Eigen::VectorXd& moved) const {
+  [[nodiscard]] std::string consequence(bool reads, const Eigen::VectorXd& moved) const {
     const double size = rms_of(s_.context, moved, false, true);
     if (!std::isfinite(size)) return {};
     double sum = 0.0, count = 0.0, sizes = 0.0, most = 0.0;
@@ -435,8 +463,7 @@ class Describer {
     constexpr double kOneSided = 0.95;
     const bool spread = std::abs(sum) < 0.7 * size * count,
                up_and_down = spread && std::abs(sum) < kOneSided * sizes;
-    if (!family.is_loss)
-      return printed(", which falsifies the efficiency by %.2g points under load", size);
+    if (reads) return printed(", which falsifies the efficiency by %.2g points under load", size);
     if (up_and_down)
       return printed(", which moves the efficiency by %.2g points up and down under load", size);
     return std::string(sum < 0.0 ? ", which costs " : ", which adds ") + (spread ? "up to " : "") +
@@ -510,52 +537,6 @@ std::string words_for(const DriveModel& model, const DriveEffect& effect,
                       const DriveContext* context) {
   return effect.family->words ? effect.family->words(model, effect.shape, context)
                               : effect.family->id;
-}
-
-namespace {
-
-/// The run that tells losses and readings apart where no effect knows a better one: of what this
-/// bench lacks.
-std::string what_the_bench_lacks(const BenchTable& table) {
-  std::string lacking;
-  const auto add = [&](bool lacks, const char* what) {
-    if (lacks) lacking += std::string(lacking.empty() ? "" : ", ") + what;
-  };
-  add(!table.has(true) || !table.has(false), "the other direction too");
-  add(table.levels[0] < 4, "more loads");
-  add(table.levels[1] < 4, "more speeds");
-  return lacking.empty() ? "the same set points several times more, in shuffled order" : lacking;
-}
-
-}  // namespace
-
-std::vector<std::string> runs_that_separate(const BenchTable& table,
-                                            const std::vector<FoundEffect>& effects) {
-  std::vector<std::string> runs;
-  const auto say = [&](const std::string& sentence) { say_once(runs, sentence); };
-  if (table.impossible == Impossible::kEfficiencyAboveOne)
-    say("before any loss is read from these data: a run without the gearbox (or with the roles of "
-        "the two "
-        "sides swapped), and each torque against a lever and weights, to separate torque_scale and "
-        "torque_offset from friction");
-  ToldApart told;
-  for (const FoundEffect& found : effects)
-    for (const std::string& other : found.confounded_with)
-      told.add(found.named ? found.id : "what has no name here", other,
-               measurement_between(found.id, find_drive_family(found.id), other,
-                                   find_drive_family(other), what_the_bench_lacks(table)));
-  told.say(runs, "run");
-  if (!table.has(true) || !table.has(false))
-    say("only one direction was run: the other separates torque scale and offset from friction and "
-        "drag");
-  if (!(table.most_speed_rpm > 1.5 * table.least_speed_rpm))
-    say("the speed hardly changes: a speed sweep separates drag, viscous, bearing and Stribeck "
-        "losses");
-  if (!table.has_temperature)
-    say("log temperature_c: without it the lubricant's thinning is not seen");
-  if (!table.has_angle)
-    say("log input_angle_deg, counting on over many turns: without it no eccentric member is seen");
-  return runs;
 }
 
 ErrorFigures drive_errors(const DriveContext& context, const Eigen::VectorXd& left_all,

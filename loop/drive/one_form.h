@@ -27,6 +27,9 @@ struct DriveSelection::OneForm {
   /// What a loss that begins, jumps or is largest at a speed must leave less than one that grows by
   /// a power of it and has no place (chi-square).
   static constexpr double kAPlace = 9.0;
+  /// Two that leave the same of the rows seen: those that are locked away say on which side they
+  /// are.
+  static constexpr double kTheSame = 1e-6;
   [[nodiscard]] bool has_a_place() const {
     return std::any_of(effects.begin(), effects.end(), [](const DriveEffect& e) {
       return e.family->has_a_place && e.family->over(e.shape) == 1.0;

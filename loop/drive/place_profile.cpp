@@ -72,6 +72,8 @@ PlaceProfile profile_of_place(const DriveContext& context, const Eigen::VectorXd
     const BesideEffects::Alone alone = beside.with({&family, shape});
     tried.push_back({std::move(shape), alone});
   }
+  if (family.shows && family.shows(context, tried.front().shape))
+    std::erase_if(tried, [&](const Tried& t) { return !family.shows(context, t.shape); });
   // The same place in the same words: an amount of the other sign is another form.
   const double sign = tried.front().alone.coefficient;
   std::erase_if(tried, [&](const Tried& t) { return !(t.alone.coefficient * sign > 0.0); });

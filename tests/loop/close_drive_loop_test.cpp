@@ -387,7 +387,7 @@ TEST(DriveLoop, ASensorThatSaturatesIsToldByTheLoadFromWhichItBends) {
   const auto closed = close_hidden(drive, {});
   ASSERT_TRUE(closed);
   EXPECT_THAT(told(closed->result),
-              testing::HasSubstr("as the output's torque that is read otherwise from a load"));
+              testing::HasSubstr("the output's torque is read otherwise from a load"));
   EXPECT_LT(closed->result.after.rms, 1.2 * 0.05 / std::sqrt(2.0)) << told(closed->result);
 }
 

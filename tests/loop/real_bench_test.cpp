@@ -51,7 +51,7 @@ TEST(PlanetaryDyno, GainsPowerBackwardsAndIsNotCalledFriction) {
       EXPECT_THAT((std::vector<std::string>{"torque_scale", "torque_offset"}),
                   testing::Contains(effect.id));
     else
-      EXPECT_THAT(effect.description, testing::HasSubstr("torque that is read otherwise"));
+      EXPECT_THAT(effect.description, testing::HasSubstr("torque is read otherwise"));
   ASSERT_FALSE(r.measure_next.empty());
   EXPECT_THAT(r.measure_next.front(), testing::HasSubstr("without the gearbox"));
   EXPECT_THAT(r.measure_next.front(), testing::HasSubstr("swapped"));

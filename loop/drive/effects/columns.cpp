@@ -103,6 +103,32 @@ const char* name_of_quantity(double over) {
   return over == 0.0 ? "load" : over == 1.0 ? "speed" : "temperature";
 }
 
+double in_direction(const DriveContext& context, const BenchPoint& p, double which) {
+  if (which == kAsItReads) return context.model.ratio * context.misread(p, false);
+  return is_of_direction(p, which) ? -context.lever(p) : 0.0;
+}
+
+double true_share(const DriveContext& context, const BenchPoint& p) {
+  const double eta = context.efficiency(p);
+  const double input_nm = p.forward ? context.load_nm(p) * eta : p.driven_nm / std::max(eta, 0.05);
+  return std::max(0.0, input_nm) / std::max(context.table.most_load_nm, 1e-300);
+}
+
+std::string reads_in_words(const Parameter& figure) {
+  Parameter size = figure;
+  if (figure.value < 0.0) size = {figure.name, -figure.value, -figure.high, -figure.low};
+  return "reads " + with_interval(size, " N m") + (figure.value < 0.0 ? " less" : " more");
+}
+
+DriveFamily reading_without_a_name() {
+  DriveFamily f = without_a_name();
+  f.parameters = {"amount_nm"};
+  f.preference = 7;
+  f.is_loss = false;
+  f.stands_alone = true;
+  return f;
+}
+
 std::vector<double> directions_alone(const DriveContext& context) {
   return context.table.has(true) && context.table.has(false) ? std::vector{0.0, 1.0, 2.0}
                                                              : std::vector{0.0};

@@ -42,10 +42,17 @@ inline constexpr double kMostFriction = 0.4;
 /// The one shape of an effect that grows over the run; none where any slope over so few set points looks like it.
 [[nodiscard]] std::vector<DriveShape> where_rows_follow_each_other(const DriveContext& context);
 
+/// What the size of a wave follows, or that it comes by the clock.
+enum WaveHow { kWaveWithLoad = 1, kWaveGrows, kWaveByRows };
+
 /// What changes in the course of a run or over a part of a turn.
-enum What { kFlanks, kDrag, kOutputReads };
-/// Its change of the driven torque [N m] for 1 N m at the input; of the flanks at the largest load.
+enum What { kFlanks, kDrag, kOutputReads, kOutputGain };
+/// Its change of the driven torque [N m] for 1 N m at the input; of the flanks and of a gain at the
+/// largest load.
 [[nodiscard]] double changed_nm(const DriveContext& context, const BenchPoint& p, double what);
+/// The output's torque over what the largest load makes of it in the lossless drive. Backward it
+/// drives, and may be read wrong itself: the input's torque says what it was.
+[[nodiscard]] double true_share(const DriveContext& context, const BenchPoint& p);
 /// Loss at the input [N m] of the largest load for a unit of the flanks' coefficient.
 [[nodiscard]] double nm_of_coefficient(const DriveContext& context);
 /// 0 ... 1 over the run (order 0), or over the turn that comes so often per turn of the input.
@@ -75,6 +82,12 @@ enum What { kFlanks, kDrag, kOutputReads };
 [[nodiscard]] inline bool is_of_direction(const BenchPoint& p, double which) {
   return which == 0.0 || p.forward == (which == 1.0);
 }
+/// As a reading of the output's torque, which takes in the one direction what it gives in the
+/// other.
+inline constexpr double kAsItReads = 3.0;
+/// Change of the driven torque [N m] for 1 N m lost at the input in both directions (0), in one (1,
+/// 2), or for 1 N m, as a torque at the input, that the output reads too much (kAsItReads).
+[[nodiscard]] double in_direction(const DriveContext& context, const BenchPoint& p, double which);
 /// " while the input drives"; empty of both.
 [[nodiscard]] std::string direction_in_words(double which);
 
@@ -84,6 +97,13 @@ enum What { kFlanks, kDrag, kOutputReads };
 [[nodiscard]] std::string unit_of_quantity(double over);
 /// " rpm" as it follows "per".
 [[nodiscard]] std::string unit_alone(double over);
+/// " (the same sign in both directions: a reading, no loss)".
+inline constexpr const char* kNoLoss = " (the same sign in both directions: a reading, no loss)";
+/// "reads 0.52 (0.5 to 0.54) N m more"; the sign of the figure is in the words.
+[[nodiscard]] std::string reads_in_words(const Parameter& figure);
+/// A family of what a sensor of the output reads wrong, with one amount.
+[[nodiscard]] DriveFamily reading_without_a_name();
+
 /// A figure whose interval is not known yet.
 [[nodiscard]] Parameter figure_of(const std::string& name, double value);
 /// "1240 rpm (1180 to 1300)".

@@ -38,6 +38,8 @@ const std::vector<DriveFamily>& drive_library() {
         unnamed_hump(),
         unnamed_onset(),
         unnamed_change(),
+        unnamed_reading_change(),
+        unnamed_gain_drift(),
         unnamed_drift(),
         unnamed_spell(),
         unnamed_bump(),
@@ -56,7 +58,15 @@ const std::vector<DriveFamily>& drive_library() {
         unnamed_gain_slope(),
         unnamed_angle_course(),
         unnamed_power(),
+        unnamed_root(),
         unnamed_states(),
+        unnamed_reading_of_load(),
+        unnamed_reading_by_direction(),
+        unnamed_reading_step(),
+        unnamed_reading_hump(),
+        unnamed_reading_onset(),
+        unnamed_power_onset(),
+        unnamed_wave(),
     };
     for (DriveFamily& family : all) {
       family.shape_values.resize(family.shape_names.size());

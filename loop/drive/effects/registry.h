@@ -45,7 +45,12 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_step();
 [[nodiscard]] DriveFamily unnamed_hump();
 [[nodiscard]] DriveFamily unnamed_onset();
+[[nodiscard]] DriveFamily unnamed_reading_step();
+[[nodiscard]] DriveFamily unnamed_reading_hump();
+[[nodiscard]] DriveFamily unnamed_reading_onset();
 [[nodiscard]] DriveFamily unnamed_change();
+[[nodiscard]] DriveFamily unnamed_reading_change();
+[[nodiscard]] DriveFamily unnamed_gain_drift();
 [[nodiscard]] DriveFamily unnamed_drift();
 [[nodiscard]] DriveFamily unnamed_spell();
 [[nodiscard]] DriveFamily unnamed_bump();
@@ -59,11 +64,16 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_reading_slope();
 [[nodiscard]] DriveFamily unnamed_settling();
 [[nodiscard]] DriveFamily unnamed_bend();
+[[nodiscard]] DriveFamily unnamed_reading_of_load();
+[[nodiscard]] DriveFamily unnamed_reading_by_direction();
 [[nodiscard]] DriveFamily unnamed_reading_power();
 [[nodiscard]] DriveFamily unnamed_reading_near_zero();
 [[nodiscard]] DriveFamily unnamed_gain_slope();
 [[nodiscard]] DriveFamily unnamed_angle_course();
 [[nodiscard]] DriveFamily unnamed_power();
+[[nodiscard]] DriveFamily unnamed_root();
+[[nodiscard]] DriveFamily unnamed_power_onset();
+[[nodiscard]] DriveFamily unnamed_wave();
 [[nodiscard]] DriveFamily unnamed_states();
 /// @}
 

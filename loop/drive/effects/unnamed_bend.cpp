@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "trueflank/base/number_text.h"
 #include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/effects/registry.h"
 
@@ -11,62 +14,69 @@ namespace trueflank::loop::drive_effects {
 
 namespace {
 
-/// The output's torque over what the largest load makes of it in the lossless drive. Backward it
-/// drives, and is read wrong itself: the input's torque says what it was.
-double share_of_most(const DriveContext& context, const BenchPoint& p) {
-  const double eta = context.efficiency(p);
-  const double input_nm = p.forward ? context.load_nm(p) * eta : p.driven_nm / std::max(eta, 0.05);
-  return input_nm / std::max(context.table.most_load_nm, 1e-300);
-}
+constexpr double kLeastBend = 0.15, kMostBend = 0.95;  // of the largest load
 
-/// Between which loads the bend lies: no row stands between them.
-std::string from_load_in_words(const DriveContext& context, double place) {
-  double below = 0.0, above = 1e300;
-  for (const BenchPoint& p : context.table.points) {
-    const double share = share_of_most(context, p);
-    if (share <= place)
-      below = std::max(below, share);
-    else
-      above = std::min(above, share);
-  }
-  constexpr double kApart = 0.03;
-  const double most = context.table.most_load_nm;
-  if (!(above < 1e300) || above - below < kApart)
-    return " from a load of about " + printed("%.3g", place * most) + " N m at the input on";
-  return " from a load between " + printed("%.3g", below * most) + " and " +
-         printed("%.3g", above * most) + " N m at the input on";
+double beyond_bend(double share, const DriveShape& s) {
+  return std::max(0.0, share - s[0]) / (1.0 - s[0]);
 }
 
 }  // namespace
 
 DriveFamily unnamed_bend() {
   constexpr int kFewestLoads = 4;
-  DriveFamily f = without_a_name();
-  f.parameters = {"amount_nm"};
+  DriveFamily f = reading_without_a_name();
   f.shape_names = {"from_share_of_load"};
-  f.preference = 7;
-  f.is_loss = false;
+  f.correction =
+      "load the output by weights on a lever up to the largest torque: where its torque reads "
+      "otherwise than they say is the error";
+  f.over = [](const DriveShape&) { return 0.0; };
   f.shape_values = {{.continuous = true, .is_place = true, .limits = [](const DriveContext&) {
-                       return std::pair(0.15, 0.95);
+                       return std::pair(kLeastBend, kMostBend);
                      }}};
-  f.shapes = [](const DriveContext& context) {
-    std::vector<DriveShape> shapes;
+  const auto shapes = [](const DriveContext& context) {
+    std::vector<DriveShape> all;
     if (!context.table.has(true) || !context.table.has(false) ||
         context.table.levels[0] < kFewestLoads)
-      return shapes;
-    for (const double place : {0.3, 0.45, 0.6, 0.7, 0.8, 0.9}) shapes.push_back({place});
-    return shapes;
+      return all;
+    for (const double place : {0.3, 0.45, 0.6, 0.7, 0.8, 0.9}) all.push_back({place});
+    return all;
+  };
+  f.shapes = shapes;
+  f.all_shapes = [shapes](const DriveContext& context, const DriveShape* about) {
+    if (about == nullptr) return shapes(context);
+    std::vector<DriveShape> all;
+    for (const double step : growing_steps(context, 0.001, 0.8))
+      if (const double place = about->front() + step; place >= kLeastBend && place <= kMostBend)
+        all.push_back({place});
+    return all;
   };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& shape,
                   double* c) {
-    const double beyond = std::max(0.0, share_of_most(context, p) - shape[0]) / (1.0 - shape[0]);
-    c[0] = beyond * context.model.ratio * context.misread(p, false);
+    const double beyond = beyond_bend(true_share(context, p), shape);
+    c[0] = beyond > 0.0 ? beyond * context.model.ratio * context.misread(p, false) : 0.0;
   };
-  f.piece_over = [](const DriveShape&) { return 0.0; };
-  f.words = [](const DriveModel&, const DriveShape& shape, const DriveContext* context) {
-    return "as the output's torque that is read otherwise" +
-           (context ? from_load_in_words(*context, shape[0]) : " from a load on") +
-           " (a sensor that saturates?)";
+  f.figures = [](const DriveContext& context, const DriveShape& s, double amount) {
+    const double ratio = context.model.ratio, most_nm = context.table.most_load_nm,
+                 at_most = amount * beyond_bend(context.table.most_carried_nm / most_nm, s);
+    return std::vector<Parameter>{
+        figure_of("amplitude_nm", std::abs(amount)),
+        figure_of("begins_at_output_nm", s[0] * most_nm * ratio),
+        figure_of("reads_more_nm", at_most * ratio),
+        figure_of("percent_beyond", 100.0 * amount / ((1.0 - s[0]) * most_nm))};
+  };
+  f.told = [](const DriveContext&, const DriveShape&, double amount,
+              const std::vector<Parameter>& figures) {
+    Parameter percent = figures[3];
+    if (percent.value < 0.0) percent = {percent.name, -percent.value, -percent.high, -percent.low};
+    return "the output's torque is read otherwise from a load of " +
+           with_interval(figures[1], " N m") + " at the output on: it " +
+           reads_in_words(figures[2]) + " at the largest, " + with_interval(percent, " %") +
+           (amount < 0.0 ? " less" : " more") + " of what lies beyond" + kNoLoss +
+           (amount < 0.0 ? ": a sensor that saturates?" : "");
+  };
+  f.words = [](const DriveModel&, const DriveShape&, const DriveContext*) {
+    return std::string(
+        "as the output's torque that is read otherwise from a load on (a sensor that saturates?)");
   };
   f.term_shapes = [](const DriveShape&) {
     return std::vector<DriveShape>{{0.0, 0.0, 0.0, 0.0, 1.0}};

@@ -49,12 +49,14 @@ std::string lines_between(const BenchTable& table, double begin, double end) {
 }
 
 constexpr int kDriftDegrees = 3;  ///< of the load
+constexpr double kMostOfJump = 0.95;
 
 std::string of_what(double number) {
   const auto what = static_cast<What>(static_cast<int>(number));
   return what == kFlanks ? ", by the friction of the flanks (an oil that was changed?)"
          : what == kDrag ? ", by the same torque at every load (a seal or grease that was changed?)"
-                         : ", as a zero of the output's torque that was moved";
+         : what == kOutputReads ? ", as a zero of the output's torque that was moved"
+                                : ", as a gain of the output's torque that was switched";
 }
 
 }  // namespace
@@ -77,7 +79,8 @@ double changed_nm(const DriveContext& context, const BenchPoint& p, double numbe
   const auto what = static_cast<What>(static_cast<int>(number));
   return what == kFlanks ? of_flanks(context, p)
          : what == kDrag ? -context.lever(p)
-                         : context.model.ratio * context.misread(p, false);
+                         : context.model.ratio * context.misread(p, false) *
+                               (what == kOutputGain ? true_share(context, p) : 1.0);
 }
 
 double place_of_spell(const BenchPoint& p, double order) {
@@ -153,36 +156,161 @@ DriveFamily unnamed_spell() {
   return f;
 }
 
-DriveFamily unnamed_change() {
-  DriveFamily f = without_a_name();
+namespace {
+
+constexpr std::size_t kJumpOf = 0, kJumpAt = 1;
+
+/// Half way between rows that follow each other, at most so many about a place (or, of many rows,
+/// so many over the run).
+std::vector<double> places_between_rows(const DriveContext& context, const DriveShape* about) {
+  constexpr std::size_t kAbout = 12, kOverTheRun = 150;
+  const auto& points = context.table.points;
+  std::vector<double> places;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    places.push_back(points[i - 1].taken + points[i].taken - 1.0);
+  std::erase_if(places, [](double at) { return std::abs(at) > kMostOfJump; });
+  std::sort(places.begin(), places.end());
+  if (about != nullptr) {
+    const auto at = std::lower_bound(places.begin(), places.end(), (*about)[kJumpAt]);
+    const auto before = static_cast<std::size_t>(at - places.begin());
+    const std::size_t from = before > kAbout ? before - kAbout : 0,
+                      to = std::min(places.size(), before + kAbout);
+    return {places.begin() + static_cast<std::ptrdiff_t>(from),
+            places.begin() + static_cast<std::ptrdiff_t>(to)};
+  }
+  std::vector<double> some;
+  const std::size_t each = 1 + places.size() / kOverTheRun;
+  for (std::size_t k = 0; k < places.size(); k += each) some.push_back(places[k]);
+  return some;
+}
+
+std::vector<Parameter> jump_figures(const DriveContext& context, const DriveShape& s,
+                                    double amount) {
+  const BenchPoint* row = row_after(context.table, s[kJumpAt]);
+  std::vector<Parameter> figures{figure_of("amplitude_nm", std::abs(amount)),
+                                 figure_of("at_line", row ? row->line : 0)};
+  if (s[kJumpOf] == double(kOutputReads))
+    figures.push_back(figure_of("reads_more_nm", amount * context.model.ratio));
+  if (s[kJumpOf] == double(kOutputGain))
+    figures.push_back(
+        figure_of("gain_changes_percent", 100.0 * amount / context.table.most_load_nm));
+  return figures;
+}
+
+/// A reading's figure as so many percent more or less.
+std::string percent_in_words(const Parameter& figure) {
+  Parameter size = figure;
+  if (figure.value < 0.0) size = {figure.name, -figure.value, -figure.high, -figure.low};
+  return with_interval(size, " %") + (figure.value < 0.0 ? " less" : " more");
+}
+
+std::string jump_told(const DriveContext&, const DriveShape& s, double amount,
+                      const std::vector<Parameter>& figures) {
+  const std::string at =
+      " that jumps in the course of the run at line " + printed("%.0f", figures[1].value);
+  if (s[kJumpOf] == double(kOutputReads))
+    return "a zero of the output's torque" + at + ": it " + reads_in_words(figures[2]) +
+           " from there on (a zero that was moved?)";
+  if (s[kJumpOf] == double(kOutputGain))
+    return "a gain of the output's torque" + at + ": it reads " + percent_in_words(figures[2]) +
+           " from there on, in proportion to the load (an amplifier's range, a lever that was "
+           "changed?)";
+  return "a loss at the input" + at + of_what(s[kJumpOf]) + ": " +
+         with_interval(figures[0], " N m") + (amount > 0.0 ? " more" : " less") +
+         (s[kJumpOf] == double(kFlanks) ? " at the largest load" : "") + " from there on";
+}
+
+/// A loss that jumps, or what the output reads.
+DriveFamily jump(bool reading) {
+  DriveFamily f = reading ? reading_without_a_name() : without_a_name();
   f.parameters = {"amount_nm"};
   f.shape_names = {"what", "place"};
+  f.stands_alone = true;
+  f.jumps_in_run = true;
+  f.preference = 6;
   f.shape_values = {{}, {.continuous = true, .is_place = true, .limits = [](const DriveContext&) {
-                           return std::pair(-0.95, 0.95);
+                           return std::pair(-kMostOfJump, kMostOfJump);
                          }}};
-  f.shapes = [](const DriveContext& context) {
+  const std::vector<double> kinds = reading ? std::vector{double(kOutputReads), double(kOutputGain)}
+                                            : std::vector{double(kFlanks), double(kDrag)};
+  f.shapes = [kinds, reading](const DriveContext& context) {
     std::vector<DriveShape> shapes;
+    const bool both = context.table.has(true) && context.table.has(false);
     if (!has_one_course(context)) return shapes;
-    for (const double what : {double(kFlanks), double(kDrag), double(kOutputReads)})
+    for (const double what : kinds) {
+      if (reading && what == double(kOutputGain) && !both) continue;
       for (const double place : {-0.75, -0.5, -0.25, 0.05, 0.25, 0.5, 0.75})
         shapes.push_back({what, place});
+    }
+    return shapes;
+  };
+  f.kind = [](const DriveShape& s) { return static_cast<int>(s[kJumpOf]); };
+  f.all_shapes = [kinds](const DriveContext& context, const DriveShape* about) {
+    std::vector<DriveShape> shapes;
+    if (!has_one_course(context)) return shapes;
+    for (const double place : places_between_rows(context, about))
+      for (const double what : kinds)
+        if (about == nullptr || what == (*about)[kJumpOf]) shapes.push_back({what, place});
     return shapes;
   };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& shape,
                   double* c) {
-    c[0] = 2.0 * p.taken - 1.0 > shape[1] ? changed_nm(context, p, shape[0]) : 0.0;
+    c[0] = 2.0 * p.taken - 1.0 > shape[kJumpAt] ? changed_nm(context, p, shape[kJumpOf]) : 0.0;
   };
+  f.figures = jump_figures;
+  f.told = jump_told;
   f.words = [](const DriveModel&, const DriveShape& shape, const DriveContext* context) {
     std::string text = "that jumps in the course of the run";
-    if (const BenchPoint* row = context ? row_after(context->table, shape[1]) : nullptr)
+    if (const BenchPoint* row = context ? row_after(context->table, shape[kJumpAt]) : nullptr)
       text += " at line " + std::to_string(row->line);
-    return text + of_what(shape[0]);
+    return text + of_what(shape[kJumpOf]);
+  };
+  if (reading)
+    f.term_shapes = [](const DriveShape& s) {
+      return std::vector<DriveShape>{
+          {s[kJumpOf] == double(kOutputGain) ? 1.0 : 0.0, 0.0, 0.0, 0.0, 1.0}};
+    };
+  return f;
+}
+
+}  // namespace
+
+DriveFamily unnamed_change() { return jump(false); }
+DriveFamily unnamed_reading_change() { return jump(true); }
+
+/// A gain that changes evenly over the run.
+DriveFamily unnamed_gain_drift() {
+  DriveFamily f = reading_without_a_name();
+  f.shapes = [](const DriveContext& context) {
+    return has_one_course(context) && context.table.levels[0] >= kDriftDegrees &&
+                   context.table.has(true) && context.table.has(false)
+               ? where_rows_follow_each_other(context)
+               : std::vector<DriveShape>{};
+  };
+  f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape&, double* c) {
+    c[0] = p.taken * changed_nm(context, p, double(kOutputGain));
+  };
+  f.figures = [](const DriveContext& context, const DriveShape&, double amount) {
+    return std::vector<Parameter>{
+        figure_of("amplitude_nm", std::abs(amount)),
+        figure_of("gain_changes_percent", 100.0 * amount / context.table.most_load_nm)};
+  };
+  f.told = [](const DriveContext&, const DriveShape&, double,
+              const std::vector<Parameter>& figures) {
+    return "a gain of the output's torque that drifts over the run: at its end it reads " +
+           percent_in_words(figures[1]) +
+           ", in proportion to the load, if it was right at its start (an amplifier that warms "
+           "up, a lever that creeps?)";
+  };
+  f.words = [](const DriveModel&, const DriveShape&, const DriveContext*) {
+    return std::string("as a gain of the output's torque that drifts over the run");
+  };
+  f.term_shapes = [](const DriveShape&) {
+    return std::vector<DriveShape>{{1.0, 0.0, 0.0, 0.0, 1.0}};
   };
   return f;
 }
 
-// A reading of the output that drifts otherwise at every load: a gain that drifts, a lever that
-// creeps once it is loaded. A zero that drifts is the same at all of them, and has a name.
 DriveFamily unnamed_drift() {
   DriveFamily f = without_a_name();
   f.parameters = {"degree_0", "degree_1", "degree_2"};

@@ -37,7 +37,9 @@ double to_the_power(double x, double power) {
 std::vector<double> near_and_far_shares(const DriveContext& context, double share) {
   std::vector<double> shares;
   for (const double step : growing_steps(context, 0.0005, 0.1)) shares.push_back(share + step);
-  for (int k = 1; k < 50; ++k) shares.push_back(0.02 * k);
+  constexpr std::size_t kVeryMany = 3000;
+  const int steps = context.table.points.size() < kVeryMany ? 200 : 50;
+  for (int k = 1; k < steps; ++k) shares.push_back(static_cast<double>(k) / steps);
   std::erase_if(shares, [](double at) { return at < 0.02 || at > 0.98; });
   return shares;
 }
@@ -80,11 +82,15 @@ std::vector<Parameter> onset_figures(const DriveContext& context, const DriveSha
             figure_of("amplitude_nm", std::abs(reached) * nm),
             figure_of("coefficient_change", std::abs(reached))};
   }
-  return {figure_of((s[kOnsetRises] > 0.0 ? "begins_at_" : "ends_at_") + unit,
-                    in_words_of_the_bench(context, s[kOnsetOver], place)),
-          figure_of("slope_nm_per_" + unit,
-                    reached / in_words_of_the_bench(context, s[kOnsetOver], end - place)),
-          figure_of("amplitude_nm", std::abs(reached))};
+  std::vector<Parameter> figures{
+      figure_of((s[kOnsetRises] > 0.0 ? "begins_at_" : "ends_at_") + unit,
+                in_words_of_the_bench(context, s[kOnsetOver], place)),
+      figure_of("slope_nm_per_" + unit,
+                reached / in_words_of_the_bench(context, s[kOnsetOver], end - place)),
+      figure_of("amplitude_nm", std::abs(reached)), figure_of("power", s[kOnsetPower])};
+  if (s[kOnsetDirection] == kAsItReads)
+    figures.push_back(figure_of("reads_more_nm", reached * context.model.ratio));
+  return figures;
 }
 
 /// The friction of the flanks from a speed or a temperature on.
@@ -114,6 +120,10 @@ std::string onset_told(const DriveContext& context, const DriveShape& s, double 
   const std::string at = with_interval(place, unit), size = short_text(std::abs(reached.value));
   const bool more = amount > 0.0;
   std::string text;
+  if (s[kOnsetDirection] == kAsItReads)
+    return "the output's torque " + reads_in_words(figures[4]) + " at " + end +
+           (s[kOnsetRises] > 0.0 ? ", which begins at a " : ", which ends at a ") + of + " of " +
+           at + kNoLoss;
   if (s[kOnsetRises] > 0.0) {
     text = "a " + std::string(more ? "loss" : "change of the loss") + which + " that begins at a " +
            of + " of " + at + ", then " + (more ? "rises" : "falls");
@@ -121,18 +131,28 @@ std::string onset_told(const DriveContext& context, const DriveShape& s, double 
                 ? " by " + with_interval(slope, " N m per" + unit_alone(s[kOnsetOver])) + ", to "
                 : " ever faster, to ";
     text += size + " N m " + (more ? "more" : "less") + " at " + end;
+    // A place further down and a bend explain as much.
+    const Parameter& power = figures[3];
+    if (power.high > power.low)
+      text += printed(" (or, from further down, by a power of it of up to %.3g)", power.high);
   } else {
     text = "a " + std::string(more ? "loss" : "change of the loss") + which + " at low " + of +
            ": " + size + " N m " + (more ? "more" : "less") + " at " + end + ", which ends at a " +
            of + " of " + at;
   }
+  if (s[kOnsetDirection] != 0.0) text += ", and nothing in the other direction";
   return text;
 }
 
-}  // namespace
-
-DriveFamily unnamed_onset() {
-  DriveFamily f = without_a_name();
+/// Of a loss, or of what the output reads. What it reads over its own load is a bend.
+DriveFamily from_a_place_on(bool reading) {
+  const int least_over = reading ? 1 : 0;
+  const auto directions_of = [reading](const DriveContext& context) {
+    const std::vector<double> alone = directions_alone(context);
+    if (!reading) return alone;
+    return alone.size() > 1 ? std::vector{kAsItReads} : std::vector<double>{};
+  };
+  DriveFamily f = reading ? reading_without_a_name() : without_a_name();
   f.parameters = {"amount_nm"};
   f.shape_names = {"over", "place", "rises", "power", "which_direction", "of_flanks"};
   f.preference = 7;
@@ -153,23 +173,25 @@ DriveFamily unnamed_onset() {
   f.beside_load = [](const DriveShape& s) {
     return s[kOnsetOfFlanks] != 0.0 ? s[kOnsetOver] : kOverNothing;
   };
-  f.shapes = [](const DriveContext& context) {
+  f.shapes = [directions_of, least_over](const DriveContext& context) {
     std::vector<DriveShape> shapes;
-    for (int over = 0; over < 3; ++over) {
-      if (context.table.levels[static_cast<std::size_t>(over)] < 4) continue;
-      for (const double place : {0.2, 0.4, 0.6, 0.8})
-        for (const double rises : {1.0, -1.0})
-          shapes.push_back({double(over), place, rises, 1.0, 0.0, 0.0});
-    }
+    for (const double which : directions_of(context))
+      for (int over = least_over; over < 3; ++over) {
+        if (context.table.levels[static_cast<std::size_t>(over)] < 4) continue;
+        const auto places = which == 0.0 ? std::vector{0.2, 0.4, 0.6, 0.8} : std::vector{0.3, 0.7};
+        for (const double place : places)
+          for (const double rises : {1.0, -1.0})
+            shapes.push_back({double(over), place, rises, 1.0, which, 0.0});
+      }
     return shapes;
   };
-  f.all_shapes = [](const DriveContext& context, const DriveShape* about) {
+  f.all_shapes = [directions_of, least_over](const DriveContext& context, const DriveShape* about) {
     std::vector<DriveShape> shapes;
-    for (int over = 0; over < 3; ++over) {
+    for (int over = least_over; over < 3; ++over) {
       if (context.table.levels[static_cast<std::size_t>(over)] < 4) continue;
       if (about != nullptr && (*about)[kOnsetOver] != double(over)) continue;
       for (const double rises : {1.0, -1.0})
-        for (const double which : directions_alone(context)) {
+        for (const double which : directions_of(context)) {
           if (about != nullptr &&
               ((*about)[kOnsetRises] != rises || (*about)[kOnsetDirection] != which))
             continue;
@@ -199,13 +221,12 @@ DriveFamily unnamed_onset() {
   };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
                   double* c) {
-    if (!is_of_direction(p, s[kOnsetDirection])) {
-      c[0] = 0.0;
-      return;
-    }
+    c[0] = 0.0;
     const double beyond = way_beyond(context.share_of_range(p, s[kOnsetOver]), s);
-    const double unit = s[kOnsetOfFlanks] != 0.0 ? context.friction_slope(p) : -context.lever(p);
-    c[0] = beyond > 0.0 ? unit * to_the_power(beyond, s[kOnsetPower]) : 0.0;
+    if (!(beyond > 0.0)) return;
+    const double unit = s[kOnsetOfFlanks] != 0.0 ? context.friction_slope(p)
+                                                 : in_direction(context, p, s[kOnsetDirection]);
+    c[0] = unit * to_the_power(beyond, s[kOnsetPower]);
   };
   f.words = [](const DriveModel&, const DriveShape& s, const DriveContext* context) {
     const std::string of = name_of_quantity(s[kOnsetOver]);
@@ -216,12 +237,23 @@ DriveFamily unnamed_onset() {
                                      *context, s[kOnsetOver],
                                      context->quantity_at_share(s[kOnsetOver], s[kOnsetPlace]))) +
                                  unit_of_the_bench(s[kOnsetOver]);
-    return std::string(s[kOnsetOfFlanks] != 0.0 ? "by friction of the flanks " : "") +
+    return std::string(s[kOnsetOfFlanks] != 0.0           ? "by friction of the flanks "
+                       : s[kOnsetDirection] == kAsItReads ? "as a reading of the output's torque "
+                                                          : "") +
            (s[kOnsetRises] > 0.0 ? "that begins at a " : "that ends at a ") + of + at;
   };
   f.figures = onset_figures;
   f.told = onset_told;
+  if (reading)
+    f.term_shapes = [](const DriveShape&) {
+      return std::vector<DriveShape>{{0.0, 0.0, 0.0, 0.0, 1.0}};
+    };
   return f;
 }
+
+}  // namespace
+
+DriveFamily unnamed_onset() { return from_a_place_on(false); }
+DriveFamily unnamed_reading_onset() { return from_a_place_on(true); }
 
 }  // namespace trueflank::loop::drive_effects

@@ -28,15 +28,41 @@ double half_of_resonance(const DriveContext& context, const DriveShape& s) {
                 context.share_at(s[0], context.quantity_at(s[0], s[1] - by)));
 }
 
-double hump_at(const DriveContext& context, const BenchPoint& p, const DriveShape& s) {
+/// Of what has this coordinate and this share of the range.
+double hump_of(const DriveContext& context, double coordinate, double share, const DriveShape& s) {
   if (s[3] == double(kSmooth)) {
-    const double x = (coordinate(context, p, s[0]) - s[1]) / s[2];
+    const double x = (coordinate - s[1]) / s[2];
     return std::exp(-x * x);
   }
-  const double x =
-      (context.share_of_range(p, s[0]) - context.share_at(s[0], context.quantity_at(s[0], s[1]))) /
-      half_of_resonance(context, s);
+  const double x = (share - context.share_at(s[0], context.quantity_at(s[0], s[1]))) /
+                   half_of_resonance(context, s);
   return s[3] == double(kSharp) ? 1.0 / (1.0 + x * x) : std::exp2(-x * x);
+}
+
+double hump_at(const DriveContext& context, const BenchPoint& p, const DriveShape& s) {
+  return hump_of(context, s[3] == double(kSmooth) ? coordinate(context, p, s[0]) : 0.0,
+                 s[3] == double(kSmooth) ? 0.0 : context.share_of_range(p, s[0]), s);
+}
+
+/// Of a hump and of a step: the direction that it stands in.
+constexpr std::size_t kHumpDirection = 4, kStepDirection = 3;
+
+/// What the output reads more, as its own figure beside the others.
+std::vector<Parameter> with_reading(const DriveContext& context, double which, double amount,
+                                    std::vector<Parameter> figures) {
+  if (which == kAsItReads)
+    figures.push_back(figure_of("reads_more_nm", amount * context.model.ratio));
+  return figures;
+}
+
+/// False where what is most of it stands where nothing was run: how high it is there nobody knows.
+bool hump_shows(const DriveContext& context, const DriveShape& s) {
+  constexpr double kShown = 0.4;
+  const std::vector<double> levels = levels_run(context, s[0]);
+  return std::any_of(levels.begin(), levels.end(), [&](double level) {
+    return hump_of(context, context.coordinate_of(s[0], level), context.share_at(s[0], level), s) >
+           kShown;
+  });
 }
 
 std::vector<Parameter> hump_figures(const DriveContext& context, const DriveShape& s,
@@ -44,38 +70,46 @@ std::vector<Parameter> hump_figures(const DriveContext& context, const DriveShap
   const std::string unit = key_of_quantity(s[0]);
   if (s[3] != double(kSmooth)) {
     const double half = half_of_resonance(context, s);
-    return {figure_of("at_" + unit, context.quantity_at(s[0], s[1])),
-            figure_of("half_width_" + unit,
-                      context.quantity_at_share(s[0], half) - context.quantity_at_share(s[0], 0.0)),
-            figure_of("amplitude_nm", std::abs(amount))};
+    return with_reading(context, s[kHumpDirection], amount,
+                        {figure_of("at_" + unit, context.quantity_at(s[0], s[1])),
+                         figure_of("half_width_" + unit, context.quantity_at_share(s[0], half) -
+                                                             context.quantity_at_share(s[0], 0.0)),
+                         figure_of("amplitude_nm", std::abs(amount))});
   }
   const auto at = [&](double by) {
     return context.quantity_at(s[0], s[1] + by * kHalfOfGauss * s[2]);
   };
   const double place = context.quantity_at(s[0], s[1]);
-  return {figure_of("at_" + unit, place),
-          figure_of("half_width_" + unit, 0.5 * (at(1.0) - at(-1.0))),
-          figure_of("amplitude_nm", std::abs(amount))};
+  return with_reading(
+      context, s[kHumpDirection], amount,
+      {figure_of("at_" + unit, place), figure_of("half_width_" + unit, 0.5 * (at(1.0) - at(-1.0))),
+       figure_of("amplitude_nm", std::abs(amount))});
 }
 
 std::string hump_told(const DriveContext&, const DriveShape& s, double amount,
                       const std::vector<Parameter>& figures) {
   const std::string unit = unit_of_quantity(s[0]);
-  return "a loss that is " + std::string(amount > 0.0 ? "largest" : "smallest") + " at a " +
-         name_of_quantity(s[0]) + " of " + with_interval(figures[0], unit) + ", by " +
-         with_interval(figures[2], " N m") + ", and half of that " +
-         with_interval(figures[1], unit) + " away" +
+  if (s[kHumpDirection] == kAsItReads)
+    return "the output's torque " + reads_in_words(figures[3]) + " at a " + name_of_quantity(s[0]) +
+           " of " + with_interval(figures[0], unit) + ", and half of that " +
+           with_interval(figures[1], unit) + " away" + kNoLoss;
+  return "a loss" + direction_in_words(s[kHumpDirection]) + " that is " +
+         std::string(amount > 0.0 ? "largest" : "smallest") + " at a " + name_of_quantity(s[0]) +
+         " of " + with_interval(figures[0], unit) + ", by " + with_interval(figures[2], " N m") +
+         ", and half of that " + with_interval(figures[1], unit) + " away" +
+         (s[kHumpDirection] == 0.0 ? "" : ", and nothing in the other direction") +
          (s[0] == 1.0 && amount > 0.0 ? " (a resonance?)" : "");
 }
 
 std::vector<Parameter> step_figures(const DriveContext& context, const DriveShape& s,
                                     double amount) {
-  return {figure_of("at_" + key_of_quantity(s[0]), context.quantity_at(s[0], s[1])),
-          figure_of("amplitude_nm", std::abs(amount))};
+  return with_reading(context, s[kStepDirection], amount,
+                      {figure_of("at_" + key_of_quantity(s[0]), context.quantity_at(s[0], s[1])),
+                       figure_of("amplitude_nm", std::abs(amount))});
 }
 
-/// Of a step: below the place or above it, in one direction alone.
-constexpr std::size_t kUpToIt = 2, kStepDirection = 3;
+/// Of a step: below the place or above it.
+constexpr std::size_t kUpToIt = 2;
 
 std::string step_told(const DriveContext&, const DriveShape& s, double amount,
                       const std::vector<Parameter>& figures) {
@@ -85,11 +119,15 @@ std::string step_told(const DriveContext&, const DriveShape& s, double amount,
       at.high - at.low > 0.01 * std::abs(at.value)
           ? "between " + printed("%.4g", at.low) + " and " + printed("%.4g", at.high) + unit
           : "of " + with_interval(at, unit);
-  const std::string size = with_interval(figures[1], " N m") + (amount > 0.0 ? " more " : " less ");
+  const std::string where = (s[kUpToIt] == 0.0 ? " from a " : " up to a ") +
+                            std::string(name_of_quantity(s[0])) + " " + place +
+                            (s[kUpToIt] == 0.0 ? " on" : "");
+  if (s[kStepDirection] == kAsItReads)
+    return "the output's torque " + reads_in_words(figures[2]) + where +
+           (s[kUpToIt] == 0.0 ? " than below" : " than above") + kNoLoss;
+  const std::string size = with_interval(figures[1], " N m") + (amount > 0.0 ? " more" : " less");
   return "a loss" + direction_in_words(s[kStepDirection]) + " that changes at once: " + size +
-         (s[kUpToIt] == 0.0 ? "from" : "up to") + " a " + name_of_quantity(s[0]) + " " + place +
-         (s[kUpToIt] == 0.0 ? " on" : "") +
-         (s[kStepDirection] == 0.0 ? "" : ", and nothing in the other direction");
+         where + (s[kStepDirection] == 0.0 ? "" : ", and nothing in the other direction");
 }
 
 /// Places about one, in steps that grow, and over the whole range.
@@ -101,10 +139,20 @@ std::vector<double> near_and_far(const DriveContext& context, double place, doub
   return places;
 }
 
+/// Both directions and each alone, or as the output reads.
+std::vector<double> directions_of(const DriveContext& context, bool reading) {
+  const std::vector<double> alone = directions_alone(context);
+  if (!reading) return alone;
+  return alone.size() > 1 ? std::vector{kAsItReads} : std::vector<double>{};
+}
+
 /// Everywhere between the ends of the range, or, to be found by, at the levels and between them.
-std::vector<DriveShape> all_places(const DriveContext& context, const DriveShape* about,
-                                   bool hump) {
+std::vector<DriveShape> all_places(const DriveContext& context, const DriveShape* about, bool hump,
+                                   bool reading) {
   std::vector<DriveShape> shapes;
+  const std::vector<double> directions =
+      about == nullptr ? directions_of(context, reading)
+                       : std::vector{(*about)[hump ? kHumpDirection : kStepDirection]};
   for (int over = 0; over < 3; ++over) {
     if (context.table.levels[static_cast<std::size_t>(over)] < 4) continue;
     if (about != nullptr && (*about)[0] != double(over)) continue;
@@ -124,24 +172,28 @@ std::vector<DriveShape> all_places(const DriveContext& context, const DriveShape
         widths.push_back((*about)[2] * std::exp(wider));
     std::erase_if(widths, [](double w) { return w < 0.05 || w > 0.8; });
     for (const double place : places) {
-      if (!hump && about != nullptr)
-        shapes.push_back({double(over), place, (*about)[kUpToIt], (*about)[kStepDirection]});
-      else if (!hump)
-        for (const double which : directions_alone(context))
-          shapes.push_back({double(over), place, 0.0, which});
-      else
+      for (const double which : directions) {
+        if (!hump) {
+          shapes.push_back({double(over), place, about ? (*about)[kUpToIt] : 0.0, which});
+          // (of one direction alone nothing stands for what it is on the other side)
+          if (about == nullptr && which != 0.0) shapes.push_back({double(over), place, 1.0, which});
+          continue;
+        }
         for (const double kind : {double(kSmooth), double(kSharp), double(kEvenBell)}) {
           if (about == nullptr && kind != double(kSmooth)) continue;
-          for (const double width : widths) shapes.push_back({double(over), place, width, kind});
+          for (const double width : widths)
+            shapes.push_back({double(over), place, width, kind, which});
         }
+      }
     }
   }
   return shapes;
 }
 
-/// A step at a place, or a hump about one, over load, speed or temperature (in -1 ... 1 of the range).
-DriveFamily at_a_place(bool hump) {
-  DriveFamily f = without_a_name();
+/// A step at a place, or a hump about one, over load, speed or temperature (in -1 ... 1 of the
+/// range), of a loss or of what the output reads.
+DriveFamily at_a_place(bool hump, bool reading) {
+  DriveFamily f = reading ? reading_without_a_name() : without_a_name();
   f.parameters = {"amount_nm"};
   f.shape_names = {"over", "place"};
   f.over = first_value;
@@ -150,27 +202,35 @@ DriveFamily at_a_place(bool hump) {
                      .is_place = true,
                      .limits = [](const DriveContext&) { return std::pair(-0.95, 0.95); }}};
   if (hump) {
-    f.shape_names.insert(f.shape_names.end(), {"width", "kind"});
+    f.shape_names.insert(f.shape_names.end(), {"width", "kind", "which_direction"});
     f.shape_values.push_back(
         {.continuous = true, .limits = [](const DriveContext&) { return std::pair(0.05, 0.8); }});
-    f.shape_values.emplace_back();
+    f.shape_values.resize(f.shape_names.size());
+    f.kind = [](const DriveShape& s) { return static_cast<int>(s[kHumpDirection]); };
     f.kin_shapes = [](const DriveShape& s) {
-      return std::vector<DriveShape>{{s[0], s[1], s[2], double(kSmooth)},
-                                     {s[0], s[1], s[2], double(kSharp)},
-                                     {s[0], s[1], s[2], double(kEvenBell)}};
+      std::vector<DriveShape> shapes;
+      for (const double kind : {double(kSmooth), double(kSharp), double(kEvenBell)})
+        shapes.push_back({s[0], s[1], s[2], kind, s[kHumpDirection]});
+      return shapes;
     };
   }
-  f.shapes = [hump](const DriveContext& context) {
+  f.shapes = [hump, reading](const DriveContext& context) {
     std::vector<DriveShape> shapes;
-    for (int over = 0; over < 3; ++over) {
-      if (context.table.levels[over] < 4) continue;
-      for (double place : {-0.75, -0.5, -0.25, 0.05, 0.25, 0.5, 0.75}) {
-        if (!hump)
-          shapes.push_back({double(over), place, 0.0, 0.0});
-        else
-          for (double width : {0.15, 0.35}) shapes.push_back({double(over), place, width, 0.0});
+    for (const double which : directions_of(context, reading))
+      for (int over = 0; over < 3; ++over) {
+        if (context.table.levels[over] < 4) continue;
+        // (of one direction fewer: they are refined where they are chosen)
+        const auto places = which == 0.0 ? std::vector{-0.75, -0.5, -0.25, 0.05, 0.25, 0.5, 0.75}
+                                         : std::vector{-0.6, -0.2, 0.2, 0.6};
+        const auto widths = which == 0.0 ? std::vector{0.15, 0.35} : std::vector{0.35};
+        for (const double place : places) {
+          if (!hump)
+            shapes.push_back({double(over), place, 0.0, which});
+          else
+            for (const double width : widths)
+              shapes.push_back({double(over), place, width, 0.0, which});
+        }
       }
-    }
     return shapes;
   };
   f.evaluate = [hump](const DriveContext& context, const BenchPoint& p, const DriveShape& shape,
@@ -179,7 +239,9 @@ DriveFamily at_a_place(bool hump) {
                         : (coordinate(context, p, shape[0]) > shape[1]) == (shape[kUpToIt] == 0.0)
                             ? 1.0
                             : 0.0;
-    c[0] = hump || is_of_direction(p, shape[kStepDirection]) ? -context.lever(p) * size : 0.0;
+    c[0] = size == 0.0
+               ? 0.0
+               : size * in_direction(context, p, shape[hump ? kHumpDirection : kStepDirection]);
   };
   if (!hump) {
     f.shape_names.insert(f.shape_names.end(), {"up_to_it", "which_direction"});
@@ -191,11 +253,13 @@ DriveFamily at_a_place(bool hump) {
   }
   f.stands_alone = true;
   f.has_a_place = true;
-  f.all_shapes = [hump](const DriveContext& context, const DriveShape* about) {
-    return all_places(context, about, hump);
+  f.falls_in_steps = !hump;
+  f.all_shapes = [hump, reading](const DriveContext& context, const DriveShape* about) {
+    return all_places(context, about, hump, reading);
   };
   f.figures = hump ? hump_figures : step_figures;
   f.told = hump ? hump_told : step_told;
+  if (hump) f.shows = hump_shows;
   if (hump)
     f.was_run = [](const DriveContext& context, const DriveShape& s) {
       const std::vector<double> levels = levels_run(context, s[0]);
@@ -203,15 +267,23 @@ DriveFamily at_a_place(bool hump) {
         return std::abs(context.coordinate_of(s[0], level) - s[1]) < 1e-9;
       });
     };
-  f.words = [hump](const DriveModel&, const DriveShape& shape, const DriveContext* context) {
-    return place_in_words(shape, context, hump ? "hump" : "step");
+  f.words = [hump, reading](const DriveModel&, const DriveShape& shape,
+                            const DriveContext* context) {
+    return (reading ? "as a reading of the output's torque " : "") +
+           place_in_words(shape, context, hump ? "hump" : "step");
   };
+  if (reading)
+    f.term_shapes = [](const DriveShape&) {
+      return std::vector<DriveShape>{{0.0, 0.0, 0.0, 0.0, 1.0}};
+    };
   return f;
 }
 
 }  // namespace
 
-DriveFamily unnamed_step() { return at_a_place(false); }
-DriveFamily unnamed_hump() { return at_a_place(true); }
+DriveFamily unnamed_step() { return at_a_place(false, false); }
+DriveFamily unnamed_hump() { return at_a_place(true, false); }
+DriveFamily unnamed_reading_step() { return at_a_place(false, true); }
+DriveFamily unnamed_reading_hump() { return at_a_place(true, true); }
 
 }  // namespace trueflank::loop::drive_effects

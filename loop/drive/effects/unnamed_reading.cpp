@@ -23,14 +23,6 @@ bool has_both(const DriveContext& context) {
   return context.table.has(true) && context.table.has(false);
 }
 
-/// The output's torque over what the largest load makes of it in the lossless drive. Backward it
-/// drives, and is read wrong itself: the input's torque says what it was.
-double true_share(const DriveContext& context, const BenchPoint& p) {
-  const double eta = context.efficiency(p);
-  const double input_nm = p.forward ? context.load_nm(p) * eta : p.driven_nm / std::max(eta, 0.05);
-  return std::max(0.0, input_nm) / std::max(context.table.most_load_nm, 1e-300);
-}
-
 /// Change of the driven torque for a reading of the output that is 1 N m, as a torque at the input,
 /// too much.
 double read_too_much(const DriveContext& context, const BenchPoint& p) {
@@ -41,28 +33,10 @@ std::string speed_text(const DriveContext& context) {
   return printed("%.4g rpm", context.table.most_speed_rpm);
 }
 
-/// "reads 0.52 (0.5 to 0.54) N m more"; the sign of the figure is in the words.
-std::string reads_in_words(const Parameter& figure) {
-  Parameter size = figure;
-  if (figure.value < 0.0) size = {figure.name, -figure.value, -figure.high, -figure.low};
-  return "reads " + with_interval(size, " N m") + (figure.value < 0.0 ? " less" : " more");
-}
-
-constexpr const char* kNoLoss = " (the same sign in both directions: a reading, no loss)";
-
-DriveFamily reading() {
-  DriveFamily f = without_a_name();
-  f.parameters = {"amount_nm"};
-  f.preference = 7;
-  f.is_loss = false;
-  f.stands_alone = true;
-  return f;
-}
-
 }  // namespace
 
 DriveFamily unnamed_reading_power() {
-  DriveFamily f = reading();
+  DriveFamily f = reading_without_a_name();
   f.shape_names = {"power"};
   f.correction =
       "turn the output at these speeds with nothing coupled to it: what its torque reads then is "
@@ -113,7 +87,7 @@ DriveFamily unnamed_reading_power() {
 }
 
 DriveFamily unnamed_reading_near_zero() {
-  DriveFamily f = reading();
+  DriveFamily f = reading_without_a_name();
   f.shape_names = {"share_of_load", "gone_there"};
   f.correction =
       "load the output by small weights on a lever, up and down: what its torque reads otherwise "
@@ -171,7 +145,7 @@ DriveFamily unnamed_reading_near_zero() {
 }
 
 DriveFamily unnamed_gain_slope() {
-  DriveFamily f = reading();
+  DriveFamily f = reading_without_a_name();
   f.shape_names = {"right_at"};
   f.correction =
       "hang the same weight on a lever at the output, cold and warm: the gain is what changes";

@@ -150,6 +150,9 @@ DriveFamily family_of_ways(std::vector<double> of_what) {
     return figures;
   };
   f.told = way_told;
+  // Rows that were sped up or slowed down stand at other speeds: it may be a piece of a form of
+  // these.
+  f.piece_over = [](const DriveShape& s) { return s[kWayOver] == 1.0 ? 1.0 : kOverSeveral; };
   f.words = [](const DriveModel&, const DriveShape& s, const DriveContext*) {
     return std::string("that differs with the way of the ") + name_of_quantity(s[kWayOver]) +
            " (rising or falling)";
