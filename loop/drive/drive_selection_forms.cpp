@@ -215,6 +215,9 @@ void DriveSelection::tell_as_one_form(DriveOutcome& outcome) {
       double room = saved > 0    ? by_chance(saved) * outcome.shared
                     : saved == 0 ? (fewer ? kAsWell * outcome.shared : 0.0)
                                  : 9.0 * saved;
+      // A form over load or speed alone says as much of one effect: load times speed must say more.
+      constexpr double kMoreThanOneCourse = 25.0;
+      if (over == kOverPower && !fewer) room = std::min(room, -kMoreThanOneCourse * outcome.shared);
       // What has a place stays where it leaves clearly less.
       if (saved >= 0 && now.has_a_place() && set.begins_nowhere()) room += OneForm::kAPlace;
       if (more > noise * room) continue;

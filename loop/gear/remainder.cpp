@@ -192,9 +192,10 @@ class RemainderSearch {
   /// Traces of which each has a smooth form of its own: how large these are, 0 where there are
   /// none.
   double look_for_own_relief(const CourseKey& key, const Courses& courses, const CourseSets& all) {
-    ++looks_;
+    // (so much surer than others are asked to be that it is no look of theirs)
+    constexpr double kLevel = 1e-4;
     const std::optional<OwnRelief> relief = own_relief(all.sets);
-    if (!relief || relief->p_value > kRemainderLevel) return 0.0;
+    if (!relief || relief->p_value > kLevel) return 0.0;
     add_text(
         relief->p_value,
         printed("every trace over the %s has a smooth form of its own, in waves of %.3g mm and "

@@ -230,7 +230,7 @@ TEST(JudgedOnBenches, AWaveThatGrowsOverTheRunIsOneWave) {
 TEST(JudgedOnBenches, AWaveOfTheOutputsReadingIsNoLoss) {
   survey("a wave of a reading", 89000, RowOrder::kShuffled, 0.85, [](DrawnBench& bench, int) {
     return wave(
-        bench, [](const DrawnRow&) { return 1.0; }, "a reading of the output's torque", true);
+        bench, [](const DrawnRow&) { return 1.0; }, "reading of the output's torque", true);
   });
 }
 

@@ -112,9 +112,6 @@ EffectFamily unnamed_tooth_form() {
   EffectFamily f = described("unnamed_tooth_form",
                              {"tooth", "profile_degree", "face_degree", "opposite_flanks"});
   f.is_of_one_tooth = true;
-  f.needs = [](const EffectShape& shape) {
-    return NeedsToBeSeen{.along_profile = shape[1] != 0.0, .along_face = shape[2] != 0.0};
-  };
   set_columns(f, {[](const FlankGeometry&, int tooth, const EffectShape& shape, double* factor) {
                     factor[0] = tooth == static_cast<int>(shape[0]) ? 1.0 : 0.0;
                   },

@@ -278,6 +278,12 @@ double asked_of(const std::vector<Effect>& own, const std::vector<Effect>& names
   return with_form || values_of(names, true) > values_of(own, true) ? kClearly : kSimpler;
 }
 
+/// Two names imitate many a form without a name: they stand for as many effects, of as many values.
+bool imitates(const std::vector<Effect>& own, const std::vector<Effect>& names) {
+  return std::any_of(own.begin(), own.end(), [](const Effect& e) { return !e.family->named; }) &&
+         (names.size() > own.size() || values_of(names, true) > values_of(own, true));
+}
+
 void tell_likeliest_along(PartModel& model, int face) {
   constexpr double kAlike = 6.0, kWorthForms = 15.0;  // of cost
   const Runs runs = face == 0 ? Runs::kOverProfile : Runs::kOverFace;
@@ -298,11 +304,7 @@ void tell_likeliest_along(PartModel& model, int face) {
     }
     these.push_back(e);
   }
-  // (a form without a name stands where names were judged already: two names imitate many a form)
-  if (these.empty() || std::any_of(these.begin(), these.end(), [&](std::size_t e) {
-        return !model.effects[e].family->named;
-      }))
-    return;
+  if (these.empty()) return;
   std::vector<Effect> own;
   for (const std::size_t e : these) own.push_back(model.effects[e]);
   std::vector<Effect> as_told = rest;
@@ -324,7 +326,9 @@ void tell_likeliest_along(PartModel& model, int face) {
   for (const NameSet& set : sets) {
     const std::vector<Effect> names(set.with.begin() + static_cast<std::ptrdiff_t>(rest.size()),
                                     set.with.end());
-    if (set.cost > now - asked_of(own, names) || !are_sure(model, set.with, rest.size())) continue;
+    if (imitates(own, names) || set.cost > now - asked_of(own, names) ||
+        !are_sure(model, set.with, rest.size()))
+      continue;
     constexpr double kStillAlike = 12.0;
     const bool still_alike = now - set.cost < kStillAlike;
     cost = set.cost;

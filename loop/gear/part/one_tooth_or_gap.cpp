@@ -106,6 +106,21 @@ std::vector<std::size_t> pieces_of_a_tooth(const PartModel& model, const IsAsked
   return these;
 }
 
+/// True where a form of some teeth is told at, or beside, one of the two teeth of a gap: its walls
+/// may be parts of that.
+bool is_beside_form_of_teeth(const PartModel& model, int gap) {
+  const int z = model.geometry.teeth();
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    const Effect& effect = model.effects[e];
+    if (!gear_effects::is_of_teeth(effect)) continue;
+    const int first = static_cast<int>(effect.shape[0]), count = static_cast<int>(effect.shape[1]);
+    for (int k = -1; k <= count + 1; ++k)
+      if ((first - 1 + k + z) % z + 1 == gap || (first - 1 + k + z) % z + 1 == gap % z + 1)
+        return true;
+  }
+  return false;
+}
+
 bool tell_gap(PartModel& model) {
   const int z = model.geometry.teeth();
   const FlankChoice counter_clockwise = flank_choice(model.geometry, 1);
@@ -119,6 +134,8 @@ bool tell_gap(PartModel& model) {
       const int tooth = effect.flank == counter_clockwise ? gap : gap % z + 1;
       return is_flank_of_tooth(effect) && static_cast<int>(effect.shape[0]) == tooth;
     });
+    const bool of_scans = !model.table->points_mm.empty();
+    if (of_scans && (walls.size() < 2 || is_beside_form_of_teeth(model, gap))) continue;
     std::vector<Effect> forms;
     for (const double opposite : {0.0, 1.0})
       forms.push_back(
