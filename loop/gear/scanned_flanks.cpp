@@ -230,9 +230,11 @@ class ScannedFlanks {
         gram += form * form.transpose();
         right += value.um * form;
       }
-      const double determinant = gram.determinant();
-      if (!(determinant > 0.01 * gram(0, 0) * gram(1, 1))) continue;
-      const Eigen::Vector2d sizes = gram.inverse() * right;
+      const double cc = gram(0, 0), ss = gram(1, 1), cs = gram(0, 1);
+      const double determinant = cc * ss - cs * cs;
+      if (!(determinant > 0.01 * cc * ss)) continue;
+      const Eigen::Vector2d sizes((ss * right[0] - cs * right[1]) / determinant,
+                                  (cc * right[1] - cs * right[0]) / determinant);
       for (Value& value : values) {
         const double phase = phase_at(value);
         value.um -= sizes[0] * std::cos(phase) + sizes[1] * std::sin(phase);

@@ -162,7 +162,9 @@ TEST(BenchFile, ASensorThatReadsMoreInEitherSenseIsNoSwappedDirection) {
   }));
   ASSERT_TRUE(closed);
   for (const auto& effect : closed->result.effects) EXPECT_NE(effect.id, "swapped_side");
-  EXPECT_EQ(closed->result.verdict, loop::Verdict::kPartlyExplained);
+  EXPECT_EQ(closed->result.verdict, loop::Verdict::kExplained);
+  EXPECT_THAT(loop::loop_text(closed->result),
+              HasSubstr("with what the sensors read wrong taken off"));
 }
 
 TEST(BenchFile, BadRowsAreLeftOutAndTold) {

@@ -125,7 +125,7 @@ TEST(CombOfOneFlank, IsToldOfThatFlank) {
   }
 }
 
-TEST(GapThatIsDeeper, IsOneFlankOfEitherTooth) {
+TEST(GapThatIsDeeper, IsOneGapWithBothItsWalls) {
   const MadeGear gear = spur(40);
   const auto made = [](auto&, const FlankSpot& s, auto&) {
     const bool in_gap = (s.tooth == 20 && s.side > 0) || (s.tooth == 21 && s.side < 0);
@@ -133,8 +133,8 @@ TEST(GapThatIsDeeper, IsOneFlankOfEitherTooth) {
   };
   const auto result = close(gear, scan_of(gear, {grown(made)}, scanned(6000, 5.0, 3)), true);
   EXPECT_NE(find(result, "helix_error"), nullptr) << list(result);
-  EXPECT_TRUE(tells(result, "left flank of tooth 20 lies back")) << list(result);
-  EXPECT_TRUE(tells(result, "right flank of tooth 21 lies back")) << list(result);
+  EXPECT_TRUE(tells(result, "the gap between teeth 20 and 21 alone is too wide")) << list(result);
+  EXPECT_EQ(result.effects.size(), 2U) << list(result);
   EXPECT_FALSE(tells(result, "aside")) << list(result);
 }
 

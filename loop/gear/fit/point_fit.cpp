@@ -525,13 +525,6 @@ double PointFit::effect_size_um(int effect) const {
   return observations_ > 0 ? std::sqrt(std::max(0.0, square) / observations_) : 0.0;
 }
 
-bool PointFit::is_of_traces_alone() const {
-  return std::all_of(
-      patches_.patches.begin(), patches_.patches.end(), [](const Patches::Patch& patch) {
-        return patch.kind == ObservationKind::kProfile || patch.kind == ObservationKind::kHelix;
-      });
-}
-
 void PointFit::solve() {
   const int p = columns_;
   const std::vector<int> columns = columns_with(std::vector<bool>(effects_.size(), true));

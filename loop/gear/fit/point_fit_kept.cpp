@@ -78,4 +78,11 @@ bool PointFit::is_in_known(std::size_t e, Known known, std::vector<KeptColumns>&
   return false;
 }
 
+bool PointFit::is_of_traces_alone() const {
+  return std::all_of(
+      patches_.patches.begin(), patches_.patches.end(), [](const Patches::Patch& patch) {
+        return patch.kind == ObservationKind::kProfile || patch.kind == ObservationKind::kHelix;
+      });
+}
+
 }  // namespace trueflank::loop
