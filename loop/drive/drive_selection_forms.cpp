@@ -160,7 +160,7 @@ std::vector<DriveEffect> DriveSelection::likeliest_forms(const std::vector<Drive
 }
 
 void DriveSelection::tell_as_one_form(DriveOutcome& outcome) {
-  for (const double over : {0.0, 1.0, 2.0}) {
+  for (const double over : {0.0, 1.0, 2.0, kOverPower}) {
     // (what has one course over load or speed was told so)
     if (over == kOverPower &&
         std::count_if(outcome.effects.begin(), outcome.effects.end(), is_piece_over_power) < 1)
@@ -171,6 +171,10 @@ void DriveSelection::tell_as_one_form(DriveOutcome& outcome) {
                     [&](const DriveEffect& e) { return is_beside_load(e, over); });
     const auto piece = [&](const DriveEffect& e) {
       if (over == kOverPower) return is_piece_over_power(e);
+      // Flanks that rub more from a speed on look much like a loss that begins at a power.
+      if (over == 1.0 && !e.family->named && e.family->over &&
+          e.family->over(e.shape) == kOverPower)
+        return true;
       return is_piece_over(e, over) || is_beside_load(e, over) || is_of_the_run(e, over);
     };
     const bool pieces = std::any_of(outcome.effects.begin(), outcome.effects.end(), piece);
@@ -217,7 +221,7 @@ void DriveSelection::tell_as_one_form(DriveOutcome& outcome) {
                                  : 9.0 * saved;
       // A form over load or speed alone says as much of one effect: load times speed must say more.
       constexpr double kMoreThanOneCourse = 25.0;
-      if (over == kOverPower) room = std::min(room, -kMoreThanOneCourse * outcome.shared);
+      if (over == kOverPower && !fewer) room = std::min(room, -kMoreThanOneCourse * outcome.shared);
       // What has a place stays where it leaves clearly less.
       if (saved >= 0 && now.has_a_place() && set.begins_nowhere()) room += OneForm::kAPlace;
       if (more > noise * room) continue;

@@ -254,7 +254,7 @@ TEST(JudgedOnBenches, AZeroThatSwingsWithTheTimeHasAPeriodInRows) {
          });
 }
 
-TEST(JudgedOnBenches, DISABLED_ALossThatBeginsAtAPowerIsOneForm) {
+TEST(JudgedOnBenches, ALossThatBeginsAtAPowerIsOneForm) {
   survey("a loss from a power on", 90000, RowOrder::kShuffled, 0.85, [](DrawnBench& bench, int) {
     const double from = bench.between(0.25, 0.45),
                  most = bench.scatter_nm() * bench.between(8.0, 15.0);
