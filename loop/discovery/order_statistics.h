@@ -16,6 +16,8 @@ namespace trueflank::loop {
 
 /// Standard deviation of normal values over the median of their sizes.
 inline constexpr double kSigmaOfMedianSize = 1.4826;
+/// Median of squares of normal values over their variance.
+inline constexpr double kMedianOfSquare = 0.4549;
 
 /// As nth_smallest, of many values: two values of a sample bound where it lies, and only what lies
 /// between them is put in order. Nothing where the sample misleads.

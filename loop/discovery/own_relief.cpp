@@ -15,18 +15,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// The cosine transform of every column, of unit norm, without its constant.
-MatrixXd cosine_parts(const MatrixXd& set) {
-  const Index n = set.rows();
-  MatrixXd basis(n, n - 1);
-  const double step = kPi / static_cast<double>(n), norm = std::sqrt(2.0 / static_cast<double>(n));
-  for (Index k = 1; k < n; ++k)
-    for (Index i = 0; i < n; ++i)
-      basis(i, k - 1) =
-          norm * std::cos(step * static_cast<double>(k) * (static_cast<double>(i) + 0.5));
-  return basis.transpose() * set;
-}
-
 /// A set less what its courses have in common, but those that lie far off: these would show in all.
 MatrixXd without_common(const MatrixXd& set) {
   constexpr double kFar = 10.0;
@@ -57,9 +45,22 @@ double mean_of(const VectorXd& level, const Part& part) {
 
 }  // namespace
 
+VectorXd cosine_spectrum(const VectorXd& course) {
+  const Index n = course.size();
+  VectorXd result(n);
+  const double step = kPi / static_cast<double>(n);
+  for (Index k = 0; k < n; ++k) {
+    double sum = 0.0;
+    for (Index i = 0; i < n; ++i)
+      sum += course[i] * std::cos(step * static_cast<double>(k) * (static_cast<double>(i) + 0.5));
+    result[k] = sum * sum * (k == 0 ? 1.0 : 2.0) / static_cast<double>(n);
+  }
+  return result;
+}
+
 std::optional<OwnRelief> own_relief(const std::vector<MatrixXd>& sets) {
   constexpr Index kFewestRows = 32, kFewestInASet = 3;
-  constexpr double kMedianOfSquare = 0.4549, kToldByMedian = 0.37;
+  constexpr double kToldByMedian = 0.37;
   // The longest waves are lines and bows, which have a test of their own.
   constexpr Part kLong{0.0, 0.11}, kBeyond{0.13, 0.2}, kErrors{0.25, 1.0};
   constexpr Part kLonger{0.25, 0.4}, kShorter{0.4, 0.65}, kShortest{0.65, 1.0};
@@ -75,12 +76,13 @@ std::optional<OwnRelief> own_relief(const std::vector<MatrixXd>& sets) {
     if (set.cols() < kFewestInASet) continue;
     const auto count = static_cast<double>(set.cols());
     courses += count - 1.0;
-    const MatrixXd parts = cosine_parts(without_common(set));
-    sum += parts.rowwise().squaredNorm();
-    for (Index k = 0; k < waves; ++k)
-      for (Index c = 0; c < set.cols(); ++c)
-        squares[static_cast<std::size_t>(k)].push_back(parts(k, c) * parts(k, c) * count /
-                                                       (count - 1.0));
+    const MatrixXd own = without_common(set);
+    for (Index c = 0; c < set.cols(); ++c) {
+      const VectorXd parts = cosine_spectrum(own.col(c)).tail(waves);
+      sum += parts;
+      for (Index k = 0; k < waves; ++k)
+        squares[static_cast<std::size_t>(k)].push_back(parts[k] * count / (count - 1.0));
+    }
   }
   if (!(courses > 0.0)) return {};
   VectorXd level(waves);
@@ -98,13 +100,14 @@ std::optional<OwnRelief> own_relief(const std::vector<MatrixXd>& sets) {
   OwnRelief found;
   const double degrees = kToldByMedian * courses * kLong.to * static_cast<double>(waves);
   found.p_value = f_tail(of_long / (kStillErrors * error), degrees, degrees);
-  double square = 0.0;
-  bool stand_out = true;
-  for (Index k = 0; k < static_cast<Index>(kErrors.from * static_cast<double>(waves)); ++k) {
-    square += sum[k] / courses - error;
-    stand_out = stand_out && std::max(level[k], level[k + 1]) > kStillErrors * error;
-    if (stand_out) found.waves = 0.5 * static_cast<double>(k + 1);
-  }
+  const auto end = static_cast<Index>(kErrors.from * static_cast<double>(waves));
+  // From the largest on, as far as they stand out.
+  Index shortest_wave = 0;
+  level.head(end).maxCoeff(&shortest_wave);
+  while (shortest_wave + 1 < end && level[shortest_wave + 1] > kStillErrors * error)
+    ++shortest_wave;
+  found.waves = 0.5 * static_cast<double>(shortest_wave + 1);
+  const double square = sum.head(end).sum() / courses - error * static_cast<double>(end);
   found.spread = std::sqrt(std::max(0.0, square) / static_cast<double>(waves + 1));
   return found;
 }

@@ -205,19 +205,16 @@ struct DriveFamily : EffectFacts {
   std::function<double(const DriveShape&)> piece_over = {};
   /// Over which quantity it has a course in proportion to the load; kOverNothing, or empty: none.
   std::function<double(const DriveShape&)> beside_load = {};
-  /// It begins, jumps or is largest at a place: told only where it leaves clearly less than what
-  /// grows and begins nowhere.
+  /// It has a place: told only where it leaves clearly less than what begins nowhere.
   bool has_a_place = false;
   std::function<bool(const DriveShape&)> begins_nowhere = {};
   /// Where it is nothing is a figure of its own, and stands for what is the same everywhere.
   bool holds_a_constant = false;
   /// Kinds of shapes of which each is tried by its own likeliest place; empty: there is one.
   std::function<int(const DriveShape&)> kind = {};
-  /// Shapes that differ in their kind alone, to be tried once a place is found; empty: there are
-  /// none.
+  /// Shapes that differ in their kind alone, tried once a place is found; empty: none.
   std::function<std::vector<DriveShape>(const DriveShape&)> kin_shapes = {};
-  /// True of a shape that a plainer one of its kind goes before where both explain as much; empty:
-  /// none is.
+  /// True of a shape that goes after a plainer one that explains as much; empty: none.
   std::function<bool(const DriveShape&)> is_odd = {};
   /// Waves per turn of the input; empty: it is none.
   std::function<double(const DriveShape&)> order = {};
@@ -237,6 +234,8 @@ struct DriveFamily : EffectFacts {
   bool falls_in_steps = false;
   /// It jumps once in the course of the run, at its second shape value (-1 ... 1 over the run).
   bool jumps_in_run = false;
+  /// A wave of another size in every row: asked in place of plain waves of about its order.
+  bool is_wave_of_sizes = false;
   /// The shape of a slow course of the run, a polynomial, that a scan proposes; empty: it takes none.
   std::function<DriveShape(double what, int degree)> shape_of_wander = {};
   /// @}
@@ -257,8 +256,7 @@ struct DriveFamily : EffectFacts {
   /// called amplitude_nm stands for the coefficient's size.
   std::function<std::vector<Parameter>(const DriveContext&, const DriveShape&, double coefficient)>
       figures = {};
-  /// The whole description, of these figures with their intervals (none where there are no
-  /// figures).
+  /// The whole description, of these figures (if any) with their intervals.
   std::function<std::string(const DriveContext&, const DriveShape&, double coefficient,
                             const std::vector<Parameter>& figures)>
       told = {};
@@ -267,8 +265,7 @@ struct DriveFamily : EffectFacts {
       {};
   /// False of a shape of which the most stands where nothing was run; empty: none is so.
   std::function<bool(const DriveContext&, const DriveShape&)> shows = {};
-  /// True of a place at which something was run: of shapes that explain as much it is told before
-  /// others; empty: none is.
+  /// True of a place that was run: it goes before shapes that explain as much; empty: none.
   std::function<bool(const DriveContext&, const DriveShape&)> was_run = {};
   /// @}
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "trueflank/base/units.h"
@@ -21,9 +23,8 @@ bool is_plain_wave(const DriveEffect& effect) {
 
 const DriveFamily& wave_family() {
   const auto& library = drive_library();
-  const auto at = std::find_if(library.begin(), library.end(), [](const DriveFamily& f) {
-    return f.order && f.shape_names.size() > 1 && f.shape_names[1] == "how";
-  });
+  const auto at = std::find_if(library.begin(), library.end(),
+                               [](const DriveFamily& f) { return f.is_wave_of_sizes; });
   return *at;
 }
 

@@ -9,14 +9,12 @@
 
 #include "trueflank/loop/discovery/loudness.h"
 #include "trueflank/loop/discovery/order_statistics.h"
+#include "trueflank/loop/discovery/own_relief.h"
 #include "trueflank/loop/gear/local/reading_steps.h"
 #include "trueflank/loop/gear/scanned_flanks.h"
 
 namespace trueflank::loop {
 namespace {
-
-/// Medians of chi-square with one degree of freedom, and of large ones near their mean.
-constexpr double kMedianOfSquare = 0.4549;
 
 struct Class {
   int source = 0;
@@ -57,20 +55,6 @@ double take_common_off(std::vector<Whole*>& wholes, int parts_u, int parts_v) {
   for (Whole* whole : wholes)
     for (Sample& s : *whole) s.um -= at(s).sum / at(s).count;
   return values / (values - used);
-}
-
-/// Squares of the cosine coefficients of one course.
-Eigen::VectorXd spectrum(const Eigen::VectorXd& course) {
-  const Eigen::Index n = course.size();
-  Eigen::VectorXd result(n);
-  const double step = kPi / static_cast<double>(n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    double sum = 0.0;
-    for (Eigen::Index i = 0; i < n; ++i)
-      sum += course[i] * std::cos(step * static_cast<double>(k) * (static_cast<double>(i) + 0.5));
-    result[k] = sum * sum * (k == 0 ? 1.0 : 2.0) / static_cast<double>(n);
-  }
-  return result;
 }
 
 /// Sum of a spectrum in which a line counts as what stands beside it: waves of one length that
@@ -143,12 +127,14 @@ void take_smooth_forms_off(std::vector<double>& level) {
   for (std::size_t k = 0; k < from; ++k) level[k] = std::min(level[k], error);
 }
 
-/// Variance of traces over the same wavelengths; some may be measured worse than others. Where
-/// they have trends or smooth forms of their own, what errors have of these is taken from the
-/// wavelengths beside.
+/// What every trace has for itself.
 struct OwnCourses {
   bool trends = false, smooth = false;
 };
+
+/// Variance of traces over the same wavelengths; some may be measured worse than others. Where
+/// they have trends or smooth forms of their own, what errors have of these is taken from the
+/// wavelengths beside.
 Variance variance_of_traces(std::vector<Whole>& wholes, double lost, const OwnCourses& own) {
   // (what a trend taken off smooth forms leaves would show at every length)
   const bool own_trends = own.trends && !own.smooth;
@@ -167,7 +153,7 @@ Variance variance_of_traces(std::vector<Whole>& wholes, double lost, const OwnCo
   const std::vector<double> loud = loudness_of(scatters, pieces.values).factors;
   std::vector<Eigen::VectorXd> spectra;
   for (std::size_t i = 0; i < loud.size(); ++i)
-    spectra.push_back(spectrum(pieces.courses[i] / loud[i]));
+    spectra.push_back(cosine_spectrum(pieces.courses[i] / loud[i]));
   // Wavelengths in shares of the shortest course; k = 0 is the trace's zero.
   const auto n = static_cast<int>(shortest);
   std::vector<double> level;

@@ -199,9 +199,8 @@ class RemainderSearch {
     add_text(
         relief->p_value,
         printed("every trace over the %s has a smooth form of its own, in waves of %.3g mm and "
-                "more%s, with a "
-                "standard deviation of %.3g um, as of a rough or a hammered surface, or a probe "
-                "that drifts",
+                "more%s, with a standard deviation of %.3g um, as of a rough or a hammered "
+                "surface, or a probe that drifts",
                 key.face ? "face" : "profile", std::abs(courses.high - courses.low) / relief->waves,
                 key.face ? "" : " (of roll length)", relief->spread),
         relief->spread);
@@ -236,12 +235,14 @@ class RemainderSearch {
     if (!scan && relief_um == 0.0) look_for_own_trend(key, all);
     // What so many forms happen to have in common, or one has at a place.
     constexpr double kOfRelief = 4.0;
+    const auto fewest =
+        std::min_element(all.sets.begin(), all.sets.end(), [](const auto& a, const auto& b) {
+          return a.cols() < b.cols();
+        })->cols();
     const auto is_of_relief = [&](const CourseFinding& f) {
-      const double of_each = kOfRelief * relief_um;
-      if (f.kind == CourseFinding::Kind::kSpot) return std::abs(f.amount) < of_each;
-      Eigen::Index fewest = all.sets.front().cols();
-      for (const Eigen::MatrixXd& set : all.sets) fewest = std::min(fewest, set.cols());
-      return std::abs(f.amount) < of_each / std::sqrt(static_cast<double>(fewest));
+      const bool spot = f.kind == CourseFinding::Kind::kSpot;
+      return std::abs(f.amount) <
+             kOfRelief * relief_um / (spot ? 1.0 : std::sqrt(static_cast<double>(fewest)));
     };
     const RoughFlanks rough = scan ? RoughFlanks{} : rough_flanks_of(key, courses);
     for (const CourseFinding& found : findings_along(key, all, places)) {
@@ -432,8 +433,8 @@ class RemainderSearch {
   void look_across(const FlankSpectrum& spectrum) {
     if (table_.points_mm.empty()) return;
     looks_ += 3;
-    tell_own_waves(spectrum.own_waves);  // (so much surer than others are asked to be that it is no
-                                         // look of theirs)
+    // (so much surer than others are asked to be that it is no look of theirs)
+    tell_own_waves(spectrum.own_waves);
     if (const auto& wave = spectrum.waves)
       add_form("unnamed_marks", flank_choice(geometry_, wave->side > 0 ? 1 : 0),
                {wave->waves_profile, wave->waves_face, wave->order}, wave->p_value,

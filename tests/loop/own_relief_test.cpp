@@ -86,6 +86,21 @@ TEST(OwnRelief, IsFoundWithItsSizeBesideErrorsOfSingleValues) {
   }
 }
 
+TEST(OwnRelief, OfOneLengthHasThatLength) {
+  // (its longest waves are nothing: it was told in waves of infinite length)
+  std::mt19937_64 random(9);
+  std::normal_distribution<double> normal(0.0, 5.0);
+  MatrixXd set = errors_of({}, 60, 12, random);
+  for (Index c = 0; c < set.cols(); ++c) {
+    const double size = normal(random);
+    for (Index i = 0; i < set.rows(); ++i)
+      set(i, c) += size * std::cos(M_PI * 4.0 * (static_cast<double>(i) + 0.5) / 60.0);
+  }
+  const auto relief = own_relief({set});
+  ASSERT_TRUE(relief);
+  EXPECT_EQ(relief->waves, 2.0);
+}
+
 TEST(OwnRelief, OfOneTraceIsNone) {
   std::mt19937_64 random(5);
   MatrixXd set = errors_of({}, 60, 12, random), one = set.leftCols(1);

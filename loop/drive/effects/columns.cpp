@@ -216,4 +216,22 @@ std::vector<double> growing_steps(const DriveContext& context, double first, dou
   return steps;
 }
 
+std::vector<DriveShape> with_first_moved(const DriveContext& context, const DriveShape& about,
+                                         const ValueSteps& steps) {
+  std::vector<DriveShape> shapes;
+  for (const double step : growing_steps(context, steps.first, steps.last)) {
+    const double value = steps.as_shares ? about.front() * std::exp(step) : about.front() + step;
+    if (!(value >= steps.least && value <= steps.most)) continue;
+    shapes.push_back(about);
+    shapes.back().front() = value;
+  }
+  return shapes;
+}
+
+std::string percent_in_words(const Parameter& figure) {
+  Parameter size = figure;
+  if (figure.value < 0.0) size = {figure.name, -figure.value, -figure.high, -figure.low};
+  return with_interval(size, " %") + (figure.value < 0.0 ? " less" : " more");
+}
+
 }  // namespace trueflank::loop::drive_effects

@@ -66,6 +66,17 @@ enum What { kFlanks, kDrag, kOutputReads, kOutputGain };
 /// up to the last: an interval is as fine as these. Of very many rows there are fewer.
 [[nodiscard]] std::vector<double> growing_steps(const DriveContext& context, double first,
                                                 double last);
+/// Growing steps of a value, added to it or, as shares of it, multiplied, and its limits.
+struct ValueSteps {
+  double first = 0.0, last = 0.0, least = 0.0, most = 0.0;
+  bool as_shares = false;
+};
+/// Shapes whose first value is moved by these; the others stay.
+[[nodiscard]] std::vector<DriveShape> with_first_moved(const DriveContext& context,
+                                                       const DriveShape& about,
+                                                       const ValueSteps& steps);
+/// A figure as so many percent more or less: "2.5 (2.4 to 2.6) % less".
+[[nodiscard]] std::string percent_in_words(const Parameter& figure);
 /// True where the rows are of one file, in the order in which they were taken, and not too few.
 [[nodiscard]] bool has_one_course(const DriveContext& context);
 

@@ -43,12 +43,9 @@ DriveFamily unnamed_bend() {
   };
   f.shapes = shapes;
   f.all_shapes = [shapes](const DriveContext& context, const DriveShape* about) {
-    if (about == nullptr) return shapes(context);
-    std::vector<DriveShape> all;
-    for (const double step : growing_steps(context, 0.001, 0.8))
-      if (const double place = about->front() + step; place >= kLeastBend && place <= kMostBend)
-        all.push_back({place});
-    return all;
+    return about == nullptr
+               ? shapes(context)
+               : with_first_moved(context, *about, {0.001, 0.8, kLeastBend, kMostBend});
   };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& shape,
                   double* c) {
@@ -66,13 +63,10 @@ DriveFamily unnamed_bend() {
   };
   f.told = [](const DriveContext&, const DriveShape&, double amount,
               const std::vector<Parameter>& figures) {
-    Parameter percent = figures[3];
-    if (percent.value < 0.0) percent = {percent.name, -percent.value, -percent.high, -percent.low};
     return "the output's torque is read otherwise from a load of " +
            with_interval(figures[1], " N m") + " at the output on: it " +
-           reads_in_words(figures[2]) + " at the largest, " + with_interval(percent, " %") +
-           (amount < 0.0 ? " less" : " more") + " of what lies beyond" + kNoLoss +
-           (amount < 0.0 ? ": a sensor that saturates?" : "");
+           reads_in_words(figures[2]) + " at the largest, " + percent_in_words(figures[3]) +
+           " of what lies beyond" + kNoLoss + (amount < 0.0 ? ": a sensor that saturates?" : "");
   };
   f.words = [](const DriveModel&, const DriveShape&, const DriveContext*) {
     return std::string(

@@ -197,13 +197,6 @@ std::vector<Parameter> jump_figures(const DriveContext& context, const DriveShap
   return figures;
 }
 
-/// A reading's figure as so many percent more or less.
-std::string percent_in_words(const Parameter& figure) {
-  Parameter size = figure;
-  if (figure.value < 0.0) size = {figure.name, -figure.value, -figure.high, -figure.low};
-  return with_interval(size, " %") + (figure.value < 0.0 ? " less" : " more");
-}
-
 std::string jump_told(const DriveContext&, const DriveShape& s, double amount,
                       const std::vector<Parameter>& figures) {
   const std::string at =

@@ -46,10 +46,7 @@ DriveFamily power_of_speed(bool root) {
       return powers;
     }
     const auto [lowest, highest] = root ? kRootsShown : kPowers;
-    for (const double step : growing_steps(context, 0.005, 1.0))
-      if (const double power = about->front() * std::exp(step); power >= lowest && power <= highest)
-        powers.push_back({power});
-    return powers;
+    return with_first_moved(context, *about, {0.005, 1.0, lowest, highest, true});
   };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
                   double* c) {

@@ -52,13 +52,9 @@ DriveFamily unnamed_power_onset() {
   };
   f.shapes = shapes;
   f.all_shapes = [shapes](const DriveContext& context, const DriveShape* about) {
-    if (about == nullptr) return shapes(context);
-    std::vector<DriveShape> all;
-    for (const double step : growing_steps(context, 0.001, 0.8))
-      if (const double place = about->front() + step;
-          place >= kLeastOfPower && place <= kMostOfPower)
-        all.push_back({place});
-    return all;
+    return about == nullptr
+               ? shapes(context)
+               : with_first_moved(context, *about, {0.001, 0.8, kLeastOfPower, kMostOfPower});
   };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
                   double* c) {

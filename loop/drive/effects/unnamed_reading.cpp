@@ -54,13 +54,9 @@ DriveFamily unnamed_reading_power() {
   };
   f.shapes = shapes;
   f.all_shapes = [shapes](const DriveContext& context, const DriveShape* about) {
-    if (about == nullptr) return shapes(context);
-    std::vector<DriveShape> powers;
-    for (const double step : growing_steps(context, 0.01, 1.0))
-      if (const double power = about->front() * std::exp(step);
-          power >= kLeastPower && power <= kMostPower)
-        powers.push_back({power});
-    return powers;
+    return about == nullptr
+               ? shapes(context)
+               : with_first_moved(context, *about, {0.01, 1.0, kLeastPower, kMostPower, true});
   };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
                   double* c) {
@@ -106,13 +102,9 @@ DriveFamily unnamed_reading_near_zero() {
   };
   f.shapes = shapes;
   f.all_shapes = [shapes](const DriveContext& context, const DriveShape* about) {
-    if (about == nullptr) return shapes(context);
-    std::vector<DriveShape> all;
-    for (const double step : growing_steps(context, 0.01, 1.5))
-      if (const double share = about->front() * std::exp(step);
-          share >= kLeastShare && share <= kMostShare)
-        all.push_back({share, (*about)[1]});
-    return all;
+    return about == nullptr
+               ? shapes(context)
+               : with_first_moved(context, *about, {0.01, 1.5, kLeastShare, kMostShare, true});
   };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
                   double* c) {
@@ -166,12 +158,9 @@ DriveFamily unnamed_gain_slope() {
   };
   f.shapes = shapes;
   f.all_shapes = [shapes](const DriveContext& context, const DriveShape* about) {
-    if (about == nullptr) return shapes(context);
-    std::vector<DriveShape> all;
-    for (const double step : growing_steps(context, 0.005, 1.5))
-      if (const double right = about->front() + step; right >= kLeastRight && right <= kMostRight)
-        all.push_back({right});
-    return all;
+    return about == nullptr
+               ? shapes(context)
+               : with_first_moved(context, *about, {0.005, 1.5, kLeastRight, kMostRight});
   };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
                   double* c) {

@@ -37,13 +37,9 @@ DriveFamily unnamed_reading_of_load() {
   };
   f.shapes = shapes;
   f.all_shapes = [shapes](const DriveContext& context, const DriveShape* about) {
-    if (about == nullptr) return shapes(context);
-    std::vector<DriveShape> powers;
-    for (const double step : growing_steps(context, 0.005, 1.5))
-      if (const double power = about->front() * std::exp(step);
-          power >= kLeastOfLoad && power <= kMostOfLoad)
-        powers.push_back({power});
-    return powers;
+    return about == nullptr
+               ? shapes(context)
+               : with_first_moved(context, *about, {0.005, 1.5, kLeastOfLoad, kMostOfLoad, true});
   };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
                   double* c) {
@@ -60,10 +56,8 @@ DriveFamily unnamed_reading_of_load() {
   };
   f.told = [](const DriveContext& context, const DriveShape&, double amount,
               const std::vector<Parameter>& figures) {
-    Parameter percent = figures[2];
-    if (percent.value < 0.0) percent = {percent.name, -percent.value, -percent.high, -percent.low};
     return "the output's torque " + reads_in_words(figures[1]) + ", " +
-           with_interval(percent, " %") +
+           percent_in_words(figures[2]) +
            printed(", at its largest load of %.4g N m,",
                    context.table.most_carried_nm * context.model.ratio) +
            " by the power " + with_interval(figures[3], " of the load") + kNoLoss +

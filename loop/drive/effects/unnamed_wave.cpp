@@ -82,6 +82,7 @@ DriveFamily unnamed_wave() {
   f.shape_names = {"order", "how", "as_it_reads", "phase"};
   f.preference = 7;
   f.stands_alone = true;
+  f.is_wave_of_sizes = true;
   f.shape_values = {{}, {}, {}, {.continuous = true, .is_place = true}};
   // Waves of one size that were found say where to look.
   f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
@@ -92,12 +93,13 @@ DriveFamily unnamed_wave() {
     std::vector<DriveShape> shapes;
     if (about == nullptr) return shapes;
     const bool rows = (*about)[kWaveHow] == double(kWaveByRows);
-    const double apart = rows ? 0.5 : 0.5 / std::max(1.0, context.table.turns);
+    constexpr double kApart = 0.5;  // cycles over the run
+    const double apart = rows ? kApart : kApart / std::max(1.0, context.table.turns);
     for (const double by : growing_steps(context, 0.01, 1.0)) {
       const double order = (*about)[kWaveOrder] + by * apart;
       if (!(order > 0.0)) continue;
       // (about the middle of the run, where the order does not move it)
-      const double moved = 0.5 * by * (rows ? 0.5 : 0.5);
+      const double moved = 0.5 * by * kApart;
       for (const double phase : growing_steps(context, 0.003, 0.12))
         shapes.push_back({order, (*about)[kWaveHow], (*about)[kWaveReads],
                           (*about)[kWavePhase] + moved + phase});

@@ -470,7 +470,6 @@ class Spectrum {
   /// Heights of the flanks against the longest waves within them, over the face and over the
   /// profile: the direction that allows more.
   std::optional<TeethApart> apart() const {
-    constexpr double kMedianOfSquare = 0.4549;
     // A median tells less than a mean: of a chi-square with one degree as much as 0.37 of the
     // values.
     constexpr double kToldByMedian = 0.37;

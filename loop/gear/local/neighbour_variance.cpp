@@ -31,7 +31,7 @@ double robust_variance(std::vector<double>& squares) {
     return squares.empty() ? 0.0
                            : std::accumulate(squares.begin(), squares.end(), 0.0) /
                                  static_cast<double>(squares.size());
-  return median(squares) / 0.4549;
+  return median(squares) / kMedianOfSquare;
 }
 
 bool are_apart(const std::array<double, 2>& variance, const std::array<std::size_t, 2>& counts) {

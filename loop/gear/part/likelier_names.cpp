@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sets of names along the profile or the face: the likeliest is told, those as likely beside it.
-#include "trueflank/loop/gear/part/likelier_names.h"
+#include "trueflank/loop/gear/part/settled_names.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One tooth, or one gap, was told in pieces: heights and leans of its flanks. Where one form of the
 // whole says as much within the error, it is that.
-#include "trueflank/loop/gear/part/one_tooth_or_gap.h"
+#include "trueflank/loop/gear/part/single_teeth.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,6 @@
 #include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/choice.h"
 #include "trueflank/loop/gear/part/forms_around.h"
-#include "trueflank/loop/gear/part/likelier_names.h"
 #include "trueflank/loop/gear/part/names.h"
 #include "trueflank/loop/gear/part/one_flank.h"
 #include "trueflank/loop/gear/part/other_starts.h"

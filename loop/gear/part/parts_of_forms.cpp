@@ -15,10 +15,10 @@
 #include "trueflank/loop/gear/part/names_beside_forms.h"
 #include "trueflank/loop/gear/part/odd_forms.h"
 #include "trueflank/loop/gear/part/one_form.h"
-#include "trueflank/loop/gear/part/one_tooth_or_gap.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/runs_along.h"
 #include "trueflank/loop/gear/part/sectors.h"
+#include "trueflank/loop/gear/part/single_teeth.h"
 #include "trueflank/loop/gear/part/tidying.h"
 #include "trueflank/loop/gear/part/waves.h"
 

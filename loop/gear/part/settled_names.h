@@ -11,5 +11,10 @@ void name_what_is_settled(PartModel& model);
 /// Where structure is left in the end: a name of all teeth that takes it out, settled as well.
 /// True where one does.
 [[nodiscard]] bool name_what_is_left(PartModel& model);
+/// What runs along the profile, or along the face, the same on every tooth, is told by the set of
+/// names that costs least: what it leaves and how many values it needs, places included. Names were
+/// chosen one after the other, and the first may have been one that follows two. Other sets that
+/// cost hardly more are what it can be confounded with.
+void tell_likeliest_names(PartModel& model);
 
 }  // namespace trueflank::loop

@@ -25,5 +25,11 @@ void look_at_neighbours(PartModel& model);
 [[nodiscard]] bool is_shared(const PartModel& model, const SharedByNeighbours& shared);
 /// True where neighbouring teeth share what the effects leave, beyond chance.
 [[nodiscard]] bool neighbours_share(const PartModel& model);
+/// What stands on one tooth is told as one form of it where that says as much: bent from its root
+/// on, thicker towards its tip, swollen. And what stands on the two walls of one gap is told of the
+/// gap: heights of its walls were what it is made of, or one of them with all that runout shows.
+/// Spots of neighbouring teeth are one swelling over these where that says as much with fewer
+/// values.
+void tell_one_tooth_or_gap(PartModel& model);
 
 }  // namespace trueflank::loop
