@@ -72,9 +72,12 @@ KnownProcess process_of(const MeasuredData& data, const LoopOptions& options) {
 /// True where the error on held-out data is larger than noise of the size found there allows.
 bool is_more_than_noise(const LoopResult& result, const RandomError& noise) {
   constexpr double kAllowed = 1.15, kSure = 4.0;
-  if (result.held_out == 0) return result.after.rms > kAllowed * noise.um;
-  const double allowed = std::max(kAllowed, 1.0 + kSure / std::sqrt(2.0 * result.held_out));
-  return result.after.held_out_rms > allowed * noise.held_out_um;
+  const bool any_held_out = result.held_out > 0;
+  const double allowed = std::max(
+      kAllowed,
+      1.0 + kSure / std::sqrt(2.0 * (any_held_out ? result.held_out : result.observations)));
+  return any_held_out ? result.after.held_out_rms > allowed * noise.held_out_um
+                      : result.after.rms > allowed * noise.um;
 }
 
 /// How likely noise of the size found makes so large an error by chance: of independent values.

@@ -378,6 +378,14 @@ RandomError random_error(const FlankGeometry& geometry, const Observations& tabl
     all.held_out_random_square += error.held_out_random_square;
     all.held_out_count += error.held_out_count;
   }
+  // Of sizes alone their stated errors are all that is known.
+  if (all.count == 0.0)
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      if (table.rows[i].kind != ObservationKind::kSize || patches.patch_of_row[i] < 0) continue;
+      const double sigma_um = table.sigma_um(table.rows[i]);
+      all.random_square += std::pow(std::isnan(sigma_um) ? kDefaultSizeSigma_um : sigma_um, 2);
+      all.count += 1.0;
+    }
   RandomError result{.um = all.count > 0.0 ? std::sqrt(all.random_square / all.count) : 0.0};
   result.held_out_um = all.held_out_count > 0.0
                            ? std::sqrt(all.held_out_random_square / all.held_out_count)

@@ -44,8 +44,9 @@ struct RandomError {
 /// flanks have in common, a low form of its own and the courses of its own that `left` knows of. In
 /// both each tooth counts by how loud its own short waves are (discovery/loudness.h). One value a
 /// tooth: second differences around the gear, or, where teeth or gaps have places of their own, how
-/// their two flanks differ. `row_um`: residuals of the table's rows. Accuracy: in blind runs
-/// (docs/loop.md) the middle 90 % lie at 0.94 to 1.17 of the true one.
+/// their two flanks differ. Sizes alone: their stated errors. `row_um`: residuals of the table's
+/// rows. Accuracy: in blind runs (docs/loop.md) the middle 90 % lie at 0.94 to 1.17 of the true
+/// one.
 [[nodiscard]] RandomError random_error(const FlankGeometry& geometry, const Observations& table,
                                        const Patches& patches, const std::vector<float>& row_um,
                                        const WhatIsLeft& left);

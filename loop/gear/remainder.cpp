@@ -365,6 +365,7 @@ class RemainderSearch {
                       : flank == FlankChoice::kLeft ? ", left flanks"
                                                     : ", right flanks"),
                  found.amount);
+        found_.back().own_phases = true;
     }
   }
 
@@ -505,6 +506,11 @@ class RemainderSearch {
       return;
     const FlankChoice flank =
         wave.side == 0 ? FlankChoice::kBoth : flank_choice(geometry_, wave.side > 0 ? 1 : 0);
+    // Waves or forms of every trace's own, surer as they are by themselves, are no news beside it.
+    constexpr double kOfIt = 1.5;  // times its amplitude
+    std::erase_if(found_, [&](const RemainderFinding& f) {
+      return (f.own_phases || f.own_relief) && f.amount_um < kOfIt * wave.amplitude_um;
+    });
     for (const EffectFamily& family : effect_library())
       if (family.id == "ghost_order" && family.of_traces_only == wave.backwards)
         found_.push_back({.p_value = wave.p_value,

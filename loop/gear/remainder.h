@@ -29,6 +29,7 @@ struct RemainderFinding {
   bool local = false;  ///< stands on one tooth
   OwnCourse own = OwnCourse::kNone;
   bool own_relief = false;   ///< a form of many waves on every trace, not a slope or a bow
+  bool own_phases = false;   ///< waves of every trace, each in its phase
   OwnPlaces places = {};     ///< in single values
   std::vector<OwnWaves> own_waves = {};  ///< on every flank of a scan, each in its phase
   bool beside_line = false;  ///< along the flanks, sought beside a slope

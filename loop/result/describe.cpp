@@ -48,6 +48,11 @@ Term term_of(const EffectFacts& facts, const std::vector<double>& shape) {
       case TermKey::Kind::kWord:
         term.keys.emplace_back(key.name, key.words.at(word_of(key, shape[k])));
         break;
+      case TermKey::Kind::kNumbers:
+        term.keys.emplace_back(
+            key.name,
+            std::vector<double>(shape.begin() + static_cast<std::ptrdiff_t>(k), shape.end()));
+        break;
     }
   }
   return term;

@@ -23,7 +23,12 @@ struct ToldFrom {
 
 /// How a shape value of an effect without a name is written among its terms.
 struct TermKey {
-  enum class Kind { kInteger, kNumber, kWord };
+  enum class Kind {
+    kInteger,
+    kNumber,
+    kWord,
+    kNumbers,  ///< all values that follow, as many as the first of the shape says: a list
+  };
   std::string name;
   Kind kind = Kind::kInteger;
   std::vector<std::string> words = {};  ///< kWord: for 0, for 1 (and all beyond the last), ...

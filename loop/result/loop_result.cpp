@@ -43,7 +43,11 @@ Json terms_json(const std::vector<Term>& terms, const ResultUnit& unit) {
     for (const auto& [key, value] : t.keys) {
       if (const double* real = std::get_if<double>(&value)) term[key] = number(*real);
       else if (const int* whole = std::get_if<int>(&value)) term[key] = *whole;
-      else term[key] = std::get<std::string>(value);
+      else if (const auto* list = std::get_if<std::vector<double>>(&value)) {
+        term[key] = Json::array();
+        for (const double each : *list) term[key].push_back(number(each));
+      } else
+        term[key] = std::get<std::string>(value);
     }
     term[in(unit, "cos")] = number(t.cos);
     term[in(unit, "sin")] = number(t.sin);

@@ -34,7 +34,8 @@ inline constexpr ResultUnit kMicrometres{"um", "um", "µm", false},
 struct Term {
   std::vector<double> shape;  ///< as its effect has it
   /// The shape as loop.json writes it.
-  std::vector<std::pair<std::string, std::variant<int, double, std::string>>> keys;
+  std::vector<std::pair<std::string, std::variant<int, double, std::string, std::vector<double>>>>
+      keys;
   double cos = 0.0, sin = 0.0;  ///< sin 0 where it is no wave
   double half_width = 0.0;      ///< of the 95 % interval of the amplitude
   std::string text;             ///< in words

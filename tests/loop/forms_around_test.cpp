@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -115,6 +116,72 @@ TEST(FormsAround, AreNoNamesByThemselves) {
     EXPECT_EQ(result.effects.size(), 1U) << form.words << ": " << list(result);
     EXPECT_TRUE(tells(result, form.words)) << list(result);
     EXPECT_FALSE(has_name(result)) << list(result);
+  }
+}
+
+/// Teeth of a cutter: any, and what they leave on the gear from its first tooth on.
+std::vector<double> uneven_cutter(int teeth, std::mt19937& random) {
+  std::normal_distribution<double> normal(0.0, 3.0);
+  std::vector<double> um(static_cast<std::size_t>(teeth));
+  for (double& value : um) value = normal(random);
+  return um;
+}
+
+TEST(FormsAround, APatternOfACuttersTeethIsOneFormWithItsValues) {
+  struct Draw {
+    int every, first;
+    bool aside;
+    double eccentric_um;
+  };
+  std::mt19937 random(20261129);
+  for (const Draw& draw : {Draw{7, 1, true, 0.0}, Draw{5, 12, false, 3.0}, Draw{10, 27, true, 4.0},
+                           Draw{3, 1, true, 0.0}}) {
+    const std::vector<double> cutter = uneven_cutter(draw.every, random);
+    const auto um_of = [&](int tooth) {
+      return cutter[static_cast<std::size_t>((tooth - draw.first + kTeeth) % kTeeth % draw.every)];
+    };
+    InspectionOptions options;
+    options.profile = options.helix = false;
+    options.noise_um = 0.4;
+    options.seed = static_cast<unsigned>(draw.every);
+    std::vector<Process> processes{grown([&](auto&, const FlankSpot& s, auto&) {
+      return um_of(s.tooth) * (draw.aside ? s.side : 1);
+    })};
+    if (draw.eccentric_um > 0.0) processes.push_back(off_centre(draw.eccentric_um, 100.0));
+    const auto result = close(spur(kTeeth), inspection_of(spur(kTeeth), processes, options));
+    const std::string told = list(result);
+    EXPECT_EQ(result.effects.size(), draw.eccentric_um > 0.0 ? 2U : 1U) << told;
+    EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << told;
+    EXPECT_TRUE(tells(result, "a pattern that repeats every " + std::to_string(draw.every) +
+                                  " teeth, from tooth " + std::to_string(draw.first)))
+        << told;
+    EXPECT_LT(result.noise, 0.55) << told;
+    for (const loop::FoundEffect& found : result.effects) {
+      if (found.named || found.terms.empty()) continue;
+      const loop::Term& term = found.terms.front();
+      ASSERT_EQ(term.shape.size(), 3U + cutter.size()) << told;
+      double mean = 0.0;
+      for (int tooth = 1; tooth <= kTeeth; ++tooth) mean += um_of(tooth) / kTeeth;
+      for (std::size_t k = 0; k < cutter.size(); ++k)
+        EXPECT_NEAR(term.cos * term.shape[3 + k], cutter[k] - mean, 0.75) << k << ": " << told;
+    }
+  }
+}
+
+TEST(FormsAround, PlacesOfTheirOwnAreNoPattern) {
+  std::mt19937 random(7);
+  for (int draw = 0; draw < 8; ++draw) {
+    const std::vector<double> own = uneven_cutter(kTeeth, random);
+    InspectionOptions options;
+    options.profile = options.helix = false;
+    options.noise_um = 0.4;
+    options.seed = 100U + static_cast<unsigned>(draw);
+    const auto result = close(
+        spur(kTeeth), inspection_of(spur(kTeeth), {grown([&](auto&, const FlankSpot& s, auto&) {
+                                      return s.side * own[static_cast<std::size_t>(s.tooth - 1)];
+                                    })},
+                                    options));
+    EXPECT_FALSE(tells(result, "a pattern that repeats")) << list(result);
   }
 }
 

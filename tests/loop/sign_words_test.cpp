@@ -11,6 +11,7 @@ namespace {
 
 using loop::EffectShape;
 using loop::FlankChoice;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -148,6 +149,17 @@ std::vector<Told> forms(const loop::FlankGeometry& g) {
        1,
        0,
        -0.15},
+      {"unnamed_arches",
+       {1, 4, 3, 0},
+       "scallops over the face, each 3 mm long, one of their edges at a height of 4 mm: between "
+       "the "
+       "edges the flanks stand out",
+       "facets over the face, each 3 mm long, one of their edges at a height of 4 mm: between the "
+       "edges the flanks lie back, as of a model or a path whose curves are polygons",
+       3,
+       1,
+       0,
+       0},
       {"unnamed_dish",
        {d, 5, 1, 2},
        "a swelling of the flank",
@@ -531,7 +543,7 @@ TEST(SignWords, AreSaidOfEveryFormOfOneCoefficient) {
         "unnamed_waves_dying", "unnamed_waves_growing", "unnamed_walking_waves",
         "unnamed_waves_changing", "unnamed_bow", "unnamed_axis_kink", "unnamed_field",
         "unnamed_facing", "unnamed_moved_sector", "unnamed_drift_aside", "unnamed_broken_wave",
-        "unnamed_stairs", "unnamed_wave_of_some",
+        "unnamed_stairs", "unnamed_wave_of_some", "unnamed_pattern",
         // (play is said by its axis; the words of those of some teeth are those of all)
         "unnamed_wobble", "unnamed_reversal", "unnamed_kink_of_teeth", "unnamed_bend_of_teeth",
         "unnamed_waviness_of_teeth", "unnamed_dish_of_teeth"};
@@ -570,6 +582,27 @@ TEST(SignWords, SayWhereAWaveIsLargest) {
   EXPECT_THAT(
       said_of(g, effect_of("unnamed_waviness", {1, 2.5}), {0.0, 4.0}),
       HasSubstr("4.0 waves over the face, 2.5 mm long, the first crest at a height of 0.625 mm"));
+}
+
+TEST(SignWords, SayWhatEveryToothOfAPatternHas) {
+  const auto g = geometry_of(spur(24));
+  EXPECT_THAT(said_of(g, effect_of("unnamed_pattern", {4, 22, 1, 0.5, -1.5, 0.5, 0.5}), {2.0}),
+              AllOf(HasSubstr("the teeth stand aside in a pattern that repeats every 4 teeth, "
+                              "from tooth 22 on, most at tooth 23 and every 4 teeth after it: 3 um "
+                              "clockwise; its teeth, one after the other: 1, -3, 1 and 1 um, + is "
+                              "counter-clockwise"),
+                    HasSubstr("as from a cutter of so many teeth")));
+  EXPECT_THAT(said_of(g, effect_of("unnamed_pattern", {3, 24, 0, -1, 2, -1}), {2.0}),
+              HasSubstr("most at tooth 1 and every 3 teeth after it: 4 um out"));
+  double column = 7.0;
+  const auto pattern = effect_of("unnamed_pattern", {4, 22, 1, 0.5, -1.5, 0.25, 0.75});
+  const double middle = 0.5 * (g.root_form_roll_mm() + g.tip_form_roll_mm());
+  for (const auto& [tooth, value] :
+       {std::pair{22, 0.5}, {23, -1.5}, {24, 0.25}, {1, 0.75}, {2, 0.5}})
+    for (const int side : {1, -1}) {
+      pattern.evaluate(g, g.on_flank(tooth, side, middle, 5.0), &column);
+      EXPECT_EQ(column, side * value) << tooth;
+    }
 }
 
 TEST(SignWords, SayHowHighEveryStepIs) {

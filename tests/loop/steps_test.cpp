@@ -197,5 +197,26 @@ TEST(Sawtooth, IsOneFormAndNoLead) {
   }
 }
 
+// A model that was exported as a polygon: its edges lie on the flank, its facets behind it.
+TEST(Facets, AreOneFormAndNoThinnerTeeth) {
+  const MadeGear gear = spur(28);
+  struct Draw {
+    double facets, sagitta_um;
+  };
+  for (const Draw& draw : {Draw{5.0, 16.0}, Draw{7.0, 9.0}, Draw{3.0, 25.0}}) {
+    const auto polygon = grown([&](auto&, const FlankSpot& s, auto&) {
+      const double at = 0.5 * (s.u + 1.0) * draw.facets, within = at - std::floor(at);
+      return -draw.sagitta_um * 4.0 * within * (1.0 - within);
+    });
+    const auto result = close(gear, scan_of(gear, {polygon}, scanned(6000, 2.0, 33)), true);
+    EXPECT_TRUE(tells(result, "facets over the profile, each")) << list(result);
+    EXPECT_TRUE(tells(result, "between the edges the flanks lie back")) << list(result);
+    EXPECT_EQ(result.effects.size(), 1U) << list(result);
+    EXPECT_NEAR(std::abs(parameter(result.effects[0], "amplitude_um").value), draw.sagitta_um,
+                0.05 * draw.sagitta_um)
+        << list(result);
+  }
+}
+
 }  // namespace
 }  // namespace trueflank::test

@@ -115,6 +115,8 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] double skewed_bell(double off, double below, double above);
 /// From one half at a jump evenly to minus one half before the next.
 [[nodiscard]] double sawtooth(double off, double period);
+/// A parabola of height 1 over each period, nothing where one ends and the next begins.
+[[nodiscard]] double arches(double off, double period);
 
 /// False where flanks end before the edge of a step does: that is a rise towards an end.
 [[nodiscard]] bool is_step_with_edge(const FlankGeometry& g, double face, double place_mm,

@@ -70,6 +70,7 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_fading_jump();
 [[nodiscard]] EffectFamily unnamed_skewed_band();
 [[nodiscard]] EffectFamily unnamed_sawtooth();
+[[nodiscard]] EffectFamily unnamed_arches();
 [[nodiscard]] EffectFamily unnamed_dish();
 [[nodiscard]] EffectFamily unnamed_patch();
 [[nodiscard]] EffectFamily unnamed_corner();
@@ -116,6 +117,7 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_broken_wave();
 [[nodiscard]] EffectFamily unnamed_saw();
 [[nodiscard]] EffectFamily unnamed_comb();
+[[nodiscard]] EffectFamily unnamed_pattern();
 [[nodiscard]] EffectFamily unnamed_stairs();
 [[nodiscard]] EffectFamily unnamed_drift_of_some();
 [[nodiscard]] EffectFamily unnamed_wave_of_some();

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Forms along the flanks that are steeper on one side: a jump that dies away behind it, a sawtooth,
-// a hollow or swelling.
-// They are no candidates of their own: they are told in place of slopes, bows, grooves, steps and
-// waves that follow them (products.cpp).
+// Forms along the flanks with jumps or edges: a jump that dies away behind it, a sawtooth, facets,
+// a hollow or swelling that is steeper on one side. They are no candidates of their own: they are
+// told in place of slopes, bows, grooves, steps and waves that follow them (products.cpp).
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -45,6 +44,39 @@ double sawtooth(double off, double period) {
   const double share = off / period;
   return 0.5 - (share - std::floor(share));
 }
+
+double arches(double off, double period) {
+  const double share = off / period, within = share - std::floor(share);
+  return 4.0 * within * (1.0 - within);
+}
+
+namespace {
+
+/// Shapes (along, place, period, ...) moved, and of another period about each of several places.
+std::vector<EffectShape> periods_beside(const FlankGeometry& g, const EffectShape& shape) {
+  constexpr double kShortest = 0.02, kLongest = 0.7;
+  const double range = std::abs(range_mm(g, shape[0]));
+  std::vector<EffectShape> shapes = places_beside(g, shape, kFineMoves);
+  for (const double by : {0.05, 0.02, 0.01, 0.005, 0.002, 0.0007})
+    for (const double sign : {-1.0, 1.0}) {
+      shapes.push_back(shape);
+      shapes.back()[2] *= 1.0 + sign * by;
+      // (so that an edge some periods away stays where it is)
+      for (const double periods : {-2.0, -1.0, 1.0, 2.0}) {
+        shapes.push_back(shape);
+        shapes.back()[2] *= 1.0 + sign * by;
+        const double moved = stands_at(g, shape[0], shape[1]) + periods * sign * by * shape[2];
+        shapes.back()[1] = shape[0] != 0.0 ? moved : 2.0 * g.on_flank(1, 1, moved, 0.0).radius_mm;
+      }
+    }
+  std::erase_if(shapes, [&](const EffectShape& s) {
+    const double share = share_at(g, s[0], s[1]);
+    return !(share > 0.0 && share < 1.0 && s[2] >= kShortest * range && s[2] <= kLongest * range);
+  });
+  return shapes;
+}
+
+}  // namespace
 
 /// 1 at its place, at once or over the length of an edge, and dying away from there on towards one
 /// end.
@@ -163,28 +195,7 @@ EffectFamily unnamed_sawtooth() {
               [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
                 return sawtooth(along(shape[0], p) - stands_at(g, shape[0], shape[1]), shape[2]);
               });
-  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
-    constexpr double kShortest = 0.02, kLongest = 0.7;
-    const double range = std::abs(range_mm(g, shape[0]));
-    std::vector<EffectShape> shapes = places_beside(g, shape, kFineMoves);
-    for (const double by : {0.05, 0.02, 0.01, 0.005, 0.002, 0.0007})
-      for (const double sign : {-1.0, 1.0}) {
-        shapes.push_back(shape);
-        shapes.back()[2] *= 1.0 + sign * by;
-        // (so that a jump some periods away stays where it is)
-        for (const double periods : {-2.0, -1.0, 1.0, 2.0}) {
-          shapes.push_back(shape);
-          shapes.back()[2] *= 1.0 + sign * by;
-          const double moved = stands_at(g, shape[0], shape[1]) + periods * sign * by * shape[2];
-          shapes.back()[1] = shape[0] != 0.0 ? moved : 2.0 * g.on_flank(1, 1, moved, 0.0).radius_mm;
-        }
-      }
-    std::erase_if(shapes, [&](const EffectShape& s) {
-      const double share = share_at(g, s[0], s[1]);
-      return !(share > 0.0 && share < 1.0 && s[2] >= kShortest * range && s[2] <= kLongest * range);
-    });
-    return shapes;
-  };
+  f.nearby = periods_beside;
   f.term_keys = {kAlong,
                  number("place_mm"),
                  number("period_mm"),
@@ -197,6 +208,34 @@ EffectFamily unnamed_sawtooth() {
            opposite_words(shape.back() != 0.0) +
            there(shape[0] != 0.0 ? "right above a jump" : "at diameters right beyond a jump",
                  told.sign(), shape.back() != 0.0);
+  };
+  return f;
+}
+
+/// Nothing at the edges of facets, one edge at its place, and 1 in the middle of each.
+EffectFamily unnamed_arches() {
+  EffectFamily f =
+      jumping("unnamed_arches", {"along", "place_mm", "period_mm", "opposite_flanks"},
+              [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
+                return arches(along(shape[0], p) - stands_at(g, shape[0], shape[1]), shape[2]);
+              });
+  f.nearby = periods_beside;
+  f.term_keys = {kAlong,
+                 number("place_mm"),
+                 number("period_mm"),
+                 {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}}};
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const bool opposite = shape.back() != 0.0;
+    const int sign = opposite ? 0 : told.sign();
+    return (sign < 0   ? "the same on every tooth, facets "
+            : sign > 0 ? "the same on every tooth, scallops "
+                       : "the same on every tooth, facets or scallops ") +
+           over(shape[0]) + printed(", each %.3g mm long", shape[2]) +
+           (shape[0] != 0.0 ? "" : " (of roll length)") + ", one of their edges " +
+           at_place(told.geometry, shape[0], shape[1]) + opposite_words(opposite) +
+           there("between the edges", told.sign(), opposite) +
+           (sign < 0 ? ", as of a model or a path whose curves are polygons" : "");
   };
   return f;
 }

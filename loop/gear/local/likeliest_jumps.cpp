@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Several steps and rises at the ends at once, jumps that die away, skewed hollows and sawteeth,
-// as residuals in cells look like most: the same on every tooth, beside levels of either flank, and
-// beside slopes and bows.
+// Several steps and rises at the ends at once, jumps that die away, skewed hollows, sawteeth and
+// facets, as residuals in cells look like most: the same on every tooth, beside levels of either
+// flank, and beside slopes and bows.
 #include <Eigen/Core>
 #include <Eigen/QR>
 #include <algorithm>
@@ -218,7 +218,10 @@ std::vector<Jump> fading_jumps(const FlankGeometry& g, double face) {
   return jumps;
 }
 
-std::vector<Jump> sawteeth(const FlankGeometry& g, double face) {
+/// Forms that repeat along the way, of every period and from every place on.
+template <class Function>
+std::vector<Jump> repeating(const FlankGeometry& g, double face, const char* family,
+                            Function function) {
   constexpr double kShortest = 0.09, kLongest = 0.5, kLonger = 1.03;  // of the range
   constexpr int kPhases = 12;
   const double range = std::abs(gear_effects::range_mm(g, face));
@@ -228,12 +231,11 @@ std::vector<Jump> sawteeth(const FlankGeometry& g, double face) {
   for (double period = kShortest; period < kLongest; period *= kLonger)
     for (int phase = 0; phase < kPhases; ++phase) {
       const double share = 0.5 + period * (static_cast<double>(phase) / kPhases - 0.5);
-      jumps.push_back({share,
-                       means_in_cells([&](double at) {
-                         return gear_effects::sawtooth(sense * (at - share), period);
-                       }),
-                       {face, gear_effects::place_at(g, face, share), period * range},
-                       "unnamed_sawtooth"});
+      jumps.push_back(
+          {share,
+           means_in_cells([&](double at) { return function(sense * (at - share), period); }),
+           {face, gear_effects::place_at(g, face, share), period * range},
+           family});
     }
   return jumps;
 }
@@ -305,7 +307,9 @@ std::vector<LikelyForms> likeliest_jumps(const FlankGeometry& g, const OfTeeth& 
   const OnBothFlanks flanks(teeth, face, beside_names);
   std::vector<LikelyForms> lists;
   for (const std::vector<Jump>& jumps :
-       {fading_jumps(g, face), skewed_bands(g, face), sawteeth(g, face)})
+       {fading_jumps(g, face), skewed_bands(g, face),
+        repeating(g, face, "unnamed_sawtooth", gear_effects::sawtooth),
+        repeating(g, face, "unnamed_arches", gear_effects::arches)})
     for (LikelyForms& list : best_of_each_way(g, flanks, jumps)) lists.push_back(std::move(list));
   return lists;
 }

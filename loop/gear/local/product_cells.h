@@ -103,7 +103,7 @@ using OfTeeth = std::vector<std::array<OfFlank, 2>>;
                                                        bool beside_names);
 
 /// The same of jumps that die away (unnamed_fading_jump), of skewed hollows (unnamed_skewed_band)
-/// and of sawteeth (unnamed_sawtooth).
+/// of sawteeth (unnamed_sawtooth) and of facets (unnamed_arches).
 [[nodiscard]] std::vector<LikelyForms> likeliest_jumps(const FlankGeometry& geometry,
                                                        const OfTeeth& teeth, double face,
                                                        bool beside_names);

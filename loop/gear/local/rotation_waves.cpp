@@ -26,8 +26,10 @@ namespace {
 constexpr int kMostRotationOrder = 1000;
 /// Of a scan's many values so many tell as much as is asked.
 constexpr std::size_t kMostScanned = 30000;
-/// On fewer teeth waves of other orders look the same.
-constexpr double kFewestProfiledTeeth = 8.0, kLeastShareOfTeeth = 0.6;
+/// Scans of fewer teeth are not asked: waves of other orders look the same. On few traced teeth an
+/// order must be so much likelier than every other.
+constexpr double kFewestScannedTeeth = 8.0, kLeastShareOfTeeth = 0.6, kFewestTracedTeeth = 5.0,
+                 kMuchLikelier = 0.01;
 
 /// Its values stand at these rotations: that of the tooth at a height, and what the profile adds to it.
 struct ProfileTrace {
@@ -150,9 +152,36 @@ void add_values(std::span<const double> rotation, std::span<const double> um, in
   });
 }
 
-/// OrderSums of the values of one side's traces against every order from the least on.
-OrderSums order_sums(const ProfileTraces& traces, int side, int least, int most, bool backwards) {
-  std::vector<ManyWaves> of_values(static_cast<std::size_t>(most - least + 1));
+/// What the traces of a side, or of both, say of every order from the least on.
+struct SumsOfTraces {
+  int least = 1;
+  OrderSums all;                   ///< of all traces together
+  std::vector<OrderSums> of;       ///< of each; empty where flanks of a scan were asked
+  std::vector<double> middle_rad;  ///< of each
+
+  [[nodiscard]] const std::complex<double>& at(int order) const {
+    return all[static_cast<std::size_t>(order - least)];
+  }
+  [[nodiscard]] int most() const { return least + static_cast<int>(all.size()) - 1; }
+  void add(const SumsOfTraces& other) {
+    std::transform(all.begin(), all.end(), other.all.begin(), all.begin(), std::plus<>());
+    of.insert(of.end(), other.of.begin(), other.of.end());
+    middle_rad.insert(middle_rad.end(), other.middle_rad.begin(), other.middle_rad.end());
+  }
+};
+
+/// Sums of the values of one side's traces against every order from the least on.
+SumsOfTraces order_sums(const ProfileTraces& traces, int side, int least, int most,
+                        bool backwards) {
+  const auto orders = static_cast<std::size_t>(most - least + 1);
+  SumsOfTraces sums{least, OrderSums(orders), {}, {}};
+  std::vector<ManyWaves> of_values(orders);
+  const auto take = [&](OrderSums& to) {
+    for (std::size_t n = 0; n < orders; ++n)
+      for (std::size_t i = 0; i < kAtOnce; ++i)
+        to[n] += std::complex<double>(of_values[n].real[i], of_values[n].imaginary[i]);
+    std::fill(of_values.begin(), of_values.end(), ManyWaves{});
+  };
   std::vector<double> rotation;
   for (const auto& [key, trace] : traces.of) {
     if (trace.side != side) continue;
@@ -163,29 +192,27 @@ OrderSums order_sums(const ProfileTraces& traces, int side, int least, int most,
       const std::size_t count = std::min(kAtOnce, rotation.size() - i);
       add_values({rotation.data() + i, count}, {trace.um.data() + i, count}, least, of_values);
     }
+    if (traces.scanned) continue;
+    sums.of.emplace_back(orders);
+    take(sums.of.back());
+    std::transform(sums.all.begin(), sums.all.end(), sums.of.back().begin(), sums.all.begin(),
+                   std::plus<>());
+    sums.middle_rad.push_back(trace.middle_rad.front());
   }
-  OrderSums sums;
-  sums.reserve(of_values.size());
-  for (const ManyWaves& waves : of_values) {
-    std::complex<double> sum = 0.0;
-    for (std::size_t i = 0; i < kAtOnce; ++i)
-      sum += std::complex<double>(waves.real[i], waves.imaginary[i]);
-    sums.push_back(sum);
-  }
+  if (traces.scanned) take(sums.all);
   return sums;
 }
 
 /// By chance this order stands out so far among as many as the gear has teeth; 1 where too few are
 /// beside it.
-double p_among_orders(const OrderSums& sums, int least, int order, int teeth) {
+double p_among_orders(const SumsOfTraces& sums, int order, int teeth) {
   constexpr int kFewestBeside = 6;
-  const int most = least + static_cast<int>(sums.size()) - 1;
-  if (order % teeth == 0) return 1.0;  // the same on every tooth: a form of the flank
-  const auto power_of = [&](int n) { return std::norm(sums[static_cast<std::size_t>(n - least)]); };
-  const int from = std::clamp(order - teeth / 2, least, std::max(least, most - teeth + 1));
+  const auto power_of = [&](int n) { return std::norm(sums.at(n)); };
+  const int from =
+      std::clamp(order - teeth / 2, sums.least, std::max(sums.least, sums.most() - teeth + 1));
   double beside = 0.0;
   int count = 0;
-  for (int other = from; other <= std::min(most, from + teeth - 1); ++other) {
+  for (int other = from; other <= std::min(sums.most(), from + teeth - 1); ++other) {
     if (other == order || other % teeth == 0) continue;
     beside += power_of(other);
     ++count;
@@ -194,30 +221,94 @@ double p_among_orders(const OrderSums& sums, int least, int order, int teeth) {
   return std::pow(1.0 + power_of(order) / beside, -count);
 }
 
+/// By chance the waves of traces agree so well in the phases of this order, whatever all of them
+/// have in common: of independent waves of traces, and of white errors, the share of their squares
+/// that a given course of phases takes is that of one value of n (a beta distribution). On a part
+/// of the teeth other orders have a share of a wave, which says nothing against it.
+struct Agreement {
+  double shared = 0.0, all = 0.0;  ///< squares: of the order's phases, and of all
+  double traces = 0.0;             ///< less the one value that all may have in common
+};
+Agreement agreement_of(const SumsOfTraces& sums, int order) {
+  constexpr double kToldApart = 0.2;
+  const std::size_t n = sums.of.size();
+  // As unit vectors: the same wave on every tooth, and the order's.
+  const auto at = static_cast<std::size_t>(order - sums.least);
+  const double unit = 1.0 / std::sqrt(static_cast<double>(n));
+  std::complex<double> same_and_order = 0.0, same_and_waves = 0.0, order_and_waves = 0.0;
+  double squares = 0.0;
+  for (std::size_t t = 0; t < n; ++t) {
+    const std::complex<double> same = std::polar(unit, -order * sums.middle_rad[t]),
+                               wave = sums.of[t][at];
+    same_and_order += same * unit;
+    same_and_waves += same * wave;
+    order_and_waves += unit * wave;
+    squares += std::norm(wave);
+  }
+  const double left = 1.0 - std::norm(same_and_order);
+  squares -= std::norm(same_and_waves);
+  if (left < kToldApart || !(squares > 0.0)) return {};
+  const double shared =
+      std::norm(order_and_waves - std::conj(same_and_order) * same_and_waves) / left;
+  return {
+      .shared = std::min(shared, squares), .all = squares, .traces = static_cast<double>(n) - 1.0};
+}
+
+double p_of_agreement(const SumsOfTraces& sums, int order) {
+  constexpr double kFewestTraces = 5.0;
+  const Agreement of = agreement_of(sums, order);
+  if (of.traces < kFewestTraces - 1.0) return 1.0;
+  return std::pow(1.0 - of.shared / of.all, of.traces - 1.0);
+}
+
+/// The same of two sides, each in a phase of its own.
+double p_of_both(const SumsOfTraces& one, const SumsOfTraces& other, int order, int teeth) {
+  constexpr double kFewestTraces = 8.0;
+  if (order % teeth == 0 || one.of.empty() || other.of.empty()) return 1.0;
+  const Agreement a = agreement_of(one, order), b = agreement_of(other, order);
+  const double beside = a.traces + b.traces - 2.0;
+  if (a.traces == 0.0 || b.traces == 0.0 || beside < kFewestTraces - 2.0) return 1.0;
+  const double share = (a.shared + b.shared) / (a.all + b.all);
+  return std::pow(1.0 - share, beside) * (1.0 + beside * share);
+}
+
+double p_of_order(const SumsOfTraces& sums, int order, int teeth) {
+  if (order % teeth == 0) return 1.0;  // the same on every tooth: a form of the flank
+  return sums.of.empty() ? p_among_orders(sums, order, teeth) : p_of_agreement(sums, order);
+}
+
 /// The order that stands out most; p value of one order alone.
-RotationWave likeliest(const OrderSums& sums, int least, int teeth) {
+template <class Chance>
+RotationWave likeliest(const SumsOfTraces& sums, bool much, const Chance& chance) {
   RotationWave best;
-  for (int n = least; n < least + static_cast<int>(sums.size()); ++n)
-    if (const double p = p_among_orders(sums, least, n, teeth); p < best.p_value)
+  double next = 1.0;
+  for (int n = sums.least; n <= sums.most(); ++n) {
+    const double p = chance(n);
+    if (p < best.p_value) {
+      next = best.p_value;
       best = {.order = n, .p_value = p};
+    } else {
+      next = std::min(next, p);
+    }
+  }
+  if (much && !(best.p_value < kMuchLikelier * next)) return {};
   return best;
 }
 
 /// True where no other order of as many as the gear has teeth is nearly as strong. Stripes in space, which
 /// a scan can hold, are made of many.
-bool stands_alone(const OrderSums& sums, int least, int order, int teeth) {
+bool stands_alone(const SumsOfTraces& sums, int order, int teeth) {
   constexpr double kClearly = 2.5;
-  const double own = std::norm(sums[static_cast<std::size_t>(order - least)]);
-  const int most = least + static_cast<int>(sums.size()) - 1;
-  for (int other = std::max(least, order - teeth / 2); other <= std::min(most, order + teeth / 2); ++other)
-    if (other != order && other % teeth != 0 &&
-        own < kClearly * std::norm(sums[static_cast<std::size_t>(other - least)]))
+  const double own = std::norm(sums.at(order));
+  for (int other = std::max(sums.least, order - teeth / 2);
+       other <= std::min(sums.most(), order + teeth / 2); ++other)
+    if (other != order && other % teeth != 0 && own < kClearly * std::norm(sums.at(other)))
       return false;
   return true;
 }
 
-/// Orders, flanks and ways of counting.
-double looks_at(int least, int most) { return 4.0 * (most - least + 1); }
+/// Orders, either flank or both, and ways of counting.
+double looks_at(int least, int most) { return 6.0 * (most - least + 1); }
 
 }  // namespace
 
@@ -227,7 +318,8 @@ RotationWave likeliest_rotation_wave(const FlankGeometry& geometry, const Observ
   constexpr double kTogether = 0.9;
   ProfileTraces traces = gathered(geometry, table, row_um, used);
   const auto teeth = static_cast<double>(traces.teeth.size());
-  if (teeth < std::max(kFewestProfiledTeeth, kLeastShareOfTeeth * geometry.teeth())) return {};
+  const bool few = teeth < kLeastShareOfTeeth * geometry.teeth() || teeth < kFewestScannedTeeth;
+  if (traces.scanned ? few : teeth < kFewestTracedTeeth) return {};
   const std::pair<int, int> orders = orders_of(traces);
   const int least = orders.first, most = orders.second;
   if (most <= least) return {};
@@ -240,30 +332,39 @@ RotationWave likeliest_rotation_wave(const FlankGeometry& geometry, const Observ
   std::map<int, double> most_forwards;  // square of a side's largest order
   for (const bool backwards : {false, true}) {
     if (backwards && traces.scanned) break;  // scans have no numbers of teeth
-    std::map<int, OrderSums> sums;
+    std::map<int, SumsOfTraces> sums;
     for (const auto& [side, count] : values) sums[side];
     for_each_piece(sums.size(), [&](std::size_t k) {
       auto& [side, of_side] = *std::next(sums.begin(), static_cast<std::ptrdiff_t>(k));
       of_side = order_sums(traces, side, least, most, backwards);
     });
     for (const auto& [side, of_side] : sums) {
-      RotationWave wave = likeliest(of_side, least, geometry.teeth());
+      RotationWave wave = likeliest(
+          of_side, few, [&](int order) { return p_of_order(of_side, order, geometry.teeth()); });
+      // Two sides agree in one order more surely than either by itself.
+      if (sums.size() == 2) {
+        const SumsOfTraces& other = sums[-side];
+        const RotationWave of_both = likeliest(of_side, few, [&](int order) {
+          return p_of_both(of_side, other, order, geometry.teeth());
+        });
+        if (of_both.p_value < wave.p_value &&
+            std::norm(of_side.at(of_both.order)) >= std::norm(other.at(of_both.order)))
+          wave = of_both;
+      }
       // Orders beside one whose height changes around the gear make it less sure, and one counted
       // backwards, which follows it nearly as well, perhaps surer: not while it is the smaller one.
       if (!backwards)
-        for (const auto& sum : of_side)
+        for (const auto& sum : of_side.all)
           most_forwards[side] = std::max(most_forwards[side], std::norm(sum));
-      else if (wave.order > 0 && std::norm(of_side[static_cast<std::size_t>(wave.order - least)]) <=
-                                     most_forwards[side])
+      else if (wave.order > 0 && std::norm(of_side.at(wave.order)) <= most_forwards[side])
         continue;
       if (!(wave.p_value < best.p_value)) continue;
-      if (traces.scanned && !stands_alone(of_side, least, wave.order, geometry.teeth())) continue;
-      const auto at = static_cast<std::size_t>(wave.order - least);
+      if (traces.scanned && !stands_alone(of_side, wave.order, geometry.teeth())) continue;
       wave.side = side;
       wave.backwards = backwards;
-      wave.amplitude_um = 2.0 * std::abs(of_side[at]) / values[side];
+      wave.amplitude_um = 2.0 * std::abs(of_side.at(wave.order)) / values[side];
       if (sums.size() == 2) {
-        const auto &left = sums[1][at], &right = sums[-1][at];
+        const auto &left = sums[1].at(wave.order), &right = sums[-1].at(wave.order);
         const double apart = std::norm(left) / values[1] + std::norm(right) / values[-1];
         if (std::norm(left + right) / (values[1] + values[-1]) > kTogether * apart) wave.side = 0;
       }
@@ -281,13 +382,11 @@ double chance_of_rotation_wave(const FlankGeometry& geometry, const Observations
   const auto [least, most] = orders_of(traces);
   if (wave.order < least || wave.order > most) return 0.0;
   for (auto& [key, trace] : traces.of) take_slow_part(trace);
-  OrderSums sums(static_cast<std::size_t>(most - least + 1));
-  for (const int side : {1, -1}) {
-    if (wave.side != 0 && wave.side != side) continue;
-    const OrderSums of_side = order_sums(traces, side, least, most, wave.backwards);
-    std::transform(sums.begin(), sums.end(), of_side.begin(), sums.begin(), std::plus<>());
-  }
-  return std::min(1.0, p_among_orders(sums, least, wave.order, geometry.teeth()) * looks_at(least, most));
+  SumsOfTraces sums{least, OrderSums(static_cast<std::size_t>(most - least + 1)), {}, {}};
+  for (const int side : {1, -1})
+    if (wave.side == 0 || wave.side == side)
+      sums.add(order_sums(traces, side, least, most, wave.backwards));
+  return std::min(1.0, p_of_order(sums, wave.order, geometry.teeth()) * looks_at(least, most));
 }
 
 }  // namespace trueflank::loop

@@ -18,13 +18,14 @@ struct RotationWave {
   double amplitude_um = 0.0;
 };
 
-/// The likeliest wave over the generating rotation in profile traces of most teeth, from the order
-/// of one and a half waves a profile up to that of which a trace has four values a wave. The two
-/// flanks are cut at another place of the machine's turn, so each may have a phase of its own.
-/// Waves of nearly the same length that march otherwise from tooth to tooth are other orders: each
-/// order is judged by as many of these as the gear has teeth, so waves in a phase of their own on
-/// every tooth, and those that all teeth share, are none. Without traces the flanks of scans are asked.
-/// `row_um`: residuals of the table's rows; `used`: which rows are looked at.
+/// The likeliest wave over the generating rotation in profile traces of five teeth or more, from
+/// the order of one and a half waves a profile up to that of which a trace has four values a wave.
+/// The two flanks are cut at another place of the machine's turn, so each may have a phase of its
+/// own. Each order is judged by how well the waves of traces agree in its phases, so waves in a
+/// phase of their own on every tooth, and those that all teeth share, are none; on few teeth it
+/// must be much likelier than every other. Without traces the flanks of scans of most teeth are
+/// asked: against as many other orders as the gear has teeth. `row_um`: residuals of the table's
+/// rows; `used`: which rows are looked at.
 [[nodiscard]] RotationWave likeliest_rotation_wave(const FlankGeometry& geometry,
                                                    const Observations& table,
                                                    const std::vector<float>& row_um,

@@ -13,7 +13,9 @@
 #include <vector>
 
 #include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/gear/effects/repeating_pattern.h"
 #include "trueflank/loop/gear/fit/trial_fit.h"
+#include "trueflank/loop/gear/local/repeating_patterns.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/part_loop.h"
@@ -36,8 +38,12 @@ struct WavesAround {
 };
 
 /// Orders and teeth that an effect is at, chosen among as many as there are teeth.
-int places_of(const Effect& effect) {
+int places_of(const FlankGeometry& geometry, const Effect& effect) {
   if (effect.order() > 0.0 || effect.family->local) return 1;
+  // (a pattern that closes around the gear begins anywhere)
+  if (effect.family == find_family("unnamed_pattern") &&
+      geometry.teeth() % static_cast<int>(effect.shape[gear_effects::kPatternEvery]) == 0)
+    return 1;
   const std::vector<TermKey>& keys = effect.family->term_keys;
   return static_cast<int>(std::count_if(keys.begin(), keys.end(), [](const TermKey& key) {
     return key.kind == TermKey::Kind::kInteger && !key.name.ends_with("_degree");
@@ -52,7 +58,7 @@ double cost_around(const FlankGeometry& geometry, double count, double square,
   constexpr double kValue = 8.0;  // as in cost_of
   constexpr double kNothing = 1e-9;
   int places = 0;
-  for (const Effect& effect : effects) places += places_of(effect);
+  for (const Effect& effect : effects) places += places_of(geometry, effect);
   return count * std::log(std::max(square, kNothing * count)) + kValue * values_of(effects, true) +
          2.0 * places * std::log(geometry.teeth());
 }
@@ -119,6 +125,60 @@ BesideForms beside_forms(const PartModel& model, const CourseOverFlanks& course)
   return found;
 }
 
+/// How many patterns there are to try: of every number of teeth, from every tooth on.
+std::size_t patterns_tried(int teeth) {
+  std::size_t tried = 0;
+  for (int every = gear_effects::kFewestOfPattern; every <= gear_effects::most_of_pattern(teeth);
+       ++every)
+    tried += teeth % every == 0 ? 1 : static_cast<std::size_t>(teeth);
+  return tried;
+}
+
+/// A pattern that repeats beside these: its teeth's values and what stands beside it are fitted to
+/// each other in turn.
+struct FittedPattern {
+  Effect form;
+  double square = kNaN, cost = kNaN;
+};
+/// `least`: what the best of other forms costs.
+std::vector<FittedPattern> patterns_beside(const PartModel& model, const std::vector<Effect>& with,
+                                           FlankChoice flank, bool opposite, double least) {
+  constexpr std::size_t kMost = 3;
+  constexpr double kHopeless = 30.0;  // of cost, above what another form leaves
+  constexpr int kTurns = 6;
+  const EffectFamily* const family = find_family("unnamed_pattern");
+  const auto fit = fit_of(model, with);
+  std::vector<FittedPattern> found;
+  for (const EffectShape& shape : repeating_patterns(
+           ValuesOfTeeth(model.geometry, model.table, *fit->residuals_um(), flank, opposite),
+           opposite, kMost)) {
+    FittedPattern pattern{{family, flank, shape}};
+    for (int turn = 0; turn < kTurns; ++turn) {
+      std::vector<Effect> all = with;
+      all.push_back(pattern.form);
+      const auto both = fit_of(model, all);
+      const auto last = static_cast<int>(with.size());
+      if (!(both->retained(both->first_column(last)) >= kToldApart)) break;
+      pattern.square = both->residual_square();
+      pattern.cost = cost_around(model.geometry, both->observations(), pattern.square, all);
+      if (turn + 1 == kTurns || pattern.cost > least + kHopeless) break;
+      // what it leaves, and the pattern as it was
+      std::vector<float> residual_um = *both->residuals_um();
+      const double amount = both->coefficients()[both->first_column(last)];
+      for (std::size_t r = 0; r < residual_um.size(); ++r) {
+        double column = 0.0;
+        pattern.form.evaluate(model.geometry, model.table->place(model.table->rows[r]), &column);
+        residual_um[r] += static_cast<float>(amount * column);
+      }
+      pattern.form.shape =
+          with_means_of(pattern.form.shape,
+                        ValuesOfTeeth(model.geometry, model.table, residual_um, flank, opposite));
+    }
+    if (!std::isnan(pattern.square)) found.push_back(std::move(pattern));
+  }
+  return found;
+}
+
 /// The forms from tooth to tooth of a course that leave least beside one cause or none, in place of
 /// all that effects say of that; the best of its family, the best first.
 std::vector<RemainderFinding> forms_around(const PartModel& model, const CourseOverFlanks& course,
@@ -130,6 +190,7 @@ std::vector<RemainderFinding> forms_around(const PartModel& model, const CourseO
   constexpr std::size_t kMovedEach = 4;  // and where each could come to
   std::size_t tried = 0;
   for (const std::vector<Effect>& set : sets) tried += kMovedEach * set.size() * beside.size();
+  tried += beside.size() * patterns_tried(model.geometry.teeth());
   // Both flanks of a tooth may share their error: a value a tooth.
   const double none = fit_of(model, rest)->residual_square();
   const double count = fit_of(model, rest)->observations();
@@ -170,6 +231,27 @@ std::vector<RemainderFinding> forms_around(const PartModel& model, const CourseO
     }
     if (best.second.effect) found.push_back(std::move(best));
   }
+  double least = kNaN;
+  for (const auto& [cost, finding] : found)
+    if (!(cost >= least)) least = cost;
+  if (course.profile == 0.0 && course.face == 0.0)
+    for (const auto& [flank, opposite] :
+         {std::pair(FlankChoice::kBoth, true), std::pair(FlankChoice::kBoth, false),
+          std::pair(FlankChoice::kLeft, false), std::pair(FlankChoice::kRight, false)}) {
+      std::pair<double, RemainderFinding> best{kNaN, {}};
+      for (const std::vector<Effect>& names : beside) {
+        std::vector<Effect> with = rest;
+        with.insert(with.end(), names.begin(), names.end());
+        for (FittedPattern& pattern : patterns_beside(model, with, flank, opposite, least)) {
+          if (pattern.cost >= best.first) continue;
+          best.first = pattern.cost;
+          best.second.p_value =
+              chance(pattern.square, values_of({pattern.form}, true) + values_of(names, true));
+          best.second.effect = std::move(pattern.form);
+        }
+      }
+      if (best.second.effect) found.push_back(std::move(best));
+    }
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<RemainderFinding> starts;

@@ -86,6 +86,8 @@ class Products {
 
   void ask_steps(int face);
   void ask_jumps(const Indices& set, const LikeliestProducts& likeliest, int face);
+  void ask_facets_with_levels(const Indices& set, const std::vector<LikelyForms>& jumps,
+                              const std::vector<Effect>& beside);
   void ask_the_same_on_every_tooth();
   void ask_around_the_gear();
   void ask_orders();
@@ -239,8 +241,8 @@ void Products::ask_steps(int face) {
   }
 }
 
-/// A jump that dies away, a sawtooth, or several steps at once, which a single step does not lead
-/// to.
+/// A jump that dies away, a sawtooth, facets, or several steps at once, which a single step does
+/// not lead to.
 void Products::ask_jumps(const Indices& set, const LikeliestProducts& likeliest, int face) {
   const std::vector<Effect> others = without(set);
   const Runs along = face == 0 ? Runs::kOverProfile : Runs::kOverFace;
@@ -256,13 +258,29 @@ void Products::ask_jumps(const Indices& set, const LikeliestProducts& likeliest,
     if (beside_names && model_.table->points_mm.empty()) continue;
     std::vector<Effect> beside;
     if (beside_names) beside = names;
-    ask(set, likeliest.jumps(face, beside_names), 0.0, beside);
+    const std::vector<LikelyForms> jumps = likeliest.jumps(face, beside_names);
+    ask(set, jumps, 0.0, beside);
+    ask_facets_with_levels(set, jumps, beside);
     for (const LikelyForms& steps : likeliest.stairs(face, beside_names)) {
       beside.resize(beside_names ? names.size() : 0);
       beside.insert(beside.end(), steps.forms.begin(), steps.forms.end() - 1);
       ask(set, {{steps.gain, {steps.forms.back()}}}, 0.0, beside, std::ssize(steps.forms) - 1);
     }
   }
+}
+
+/// Facets whose edges are as designed are a level too.
+void Products::ask_facets_with_levels(const Indices& set, const std::vector<LikelyForms>& jumps,
+                                      const std::vector<Effect>& beside) {
+  Indices with_levels = set;
+  for (const std::size_t e : all_)
+    if (runs_of(model_.geometry, model_.effects[e], Flanks::kOfEither) == Runs::kNowhere)
+      with_levels.push_back(e);
+  if (with_levels.size() == set.size()) return;
+  std::sort(with_levels.begin(), with_levels.end());
+  for (const LikelyForms& likely : jumps)
+    if (likely.forms.front().family == find_family("unnamed_arches"))
+      ask(with_levels, {likely}, 0.0, beside);
 }
 
 /// For all that is the same on every tooth. Where none stands, names that the pieces have taken up
