@@ -337,5 +337,47 @@ TEST(FewTraces, CoarseReadingsSeldomAlarm) {
   EXPECT_LE(alarms, 2);
 }
 
+TEST(FewTraces, AGhostOrderAboveThreeAToothIsNamedOnAPartOfTheTeeth) {
+  std::mt19937 random(51);
+  const auto between = [&](int from, int to) {
+    return std::uniform_int_distribution<int>(from, to)(random);
+  };
+  for (int draw = 0; draw < 8; ++draw) {
+    const int z = between(13, 60), traced = between(8, 11);
+    const bool in_phase = draw % 4 != 3;
+    const MadeGear gear = spur(z);
+    int order = between(16 * z / 5, 24 * z / 5);
+    if (order % z == 0) ++order;
+    std::vector<double> phases(static_cast<std::size_t>(2 * (z + 1)));
+    for (double& phase : phases) phase = 0.01 * between(0, 628);
+    const auto ghost = [&](const MadeGear& g, const FlankSpot& s, auto&) {
+      const double from = roll_of_radius(g, g.root_form_mm), to = roll_of_radius(g, g.tip_mm);
+      const double turned = (from + 0.5 * (s.u + 1.0) * (to - from)) / g.base();
+      const std::size_t flank = static_cast<std::size_t>(2 * s.tooth + (s.side > 0 ? 1 : 0));
+      const double phase =
+          in_phase ? order * (2.0 * M_PI * (s.tooth - 1) / z + 0.04 * s.side) : phases[flank];
+      return 5.0 * std::cos(phase - order * s.side * turned);
+    };
+    InspectionOptions options;
+    options.seed = 80U + static_cast<unsigned>(draw);
+    options.noise_um = 1.0;
+    options.points = 100;
+    options.teeth.clear();
+    for (int k = 0; k < traced; ++k) options.teeth.push_back(1 + k * z / traced);
+    const auto result = close(gear, inspection_of(gear, {grown(ghost)}, options));
+    const std::string told = std::to_string(z) + " teeth, order " + std::to_string(order) + ", " +
+                             std::to_string(traced) + " traced: " + list(result);
+    for (const auto& effect : result.effects) {
+      EXPECT_TRUE(in_phase) << told;
+      EXPECT_EQ(effect.id, "ghost_order") << told;
+      EXPECT_EQ(parameter(effect, "order").value, order) << told;
+    }
+    if (in_phase) {
+      EXPECT_FALSE(result.effects.empty()) << told;
+      EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << told;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace trueflank::test

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "tests/loop/made_gears.h"
+#include "trueflank/geometry/tooth_span.h"
 #include "trueflank/loop/gear/local/neighbour_variance.h"
 #include "trueflank/loop/gear/local/patches.h"
 #include "trueflank/loop/gear/observations.h"
@@ -97,6 +98,31 @@ TEST(CoarseReadings, OneWildValueOfNoneOtherIsAnOutlier) {
   for (auto& row : data.rows) row.deviation_um = 0.0;
   data.rows[data.rows.size() / 3].deviation_um = 40.0;
   EXPECT_EQ(close(gear, data).outliers, 1);
+}
+
+// Of sizes alone their stated errors are the noise.
+TEST(FewValues, SizesWithinTheirErrorsAreNoEffect) {
+  const MadeGear gear = spur(25);
+  const Gear design = design_of(gear);
+  int quiet = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal(0.0, 0.002);
+    loop::SizeData sizes;
+    for (const int teeth : {3, 4})
+      sizes.rows.push_back({loop::SizeQuantity::kSpan,
+                            base_tangent_length_mm(design, teeth) + normal(random),
+                            static_cast<double>(teeth), 2.0});
+    for (int i = 0; i < 2; ++i)
+      sizes.rows.push_back(
+          {loop::SizeQuantity::kTipDiameter, 2.0 * gear.tip_mm + normal(random), kNaN, 2.0});
+    loop::MeasuredData data;
+    data.sizes = {sizes};
+    const auto result = loop::close_loop(geometry_of(gear), "gear", data, {})->result;
+    EXPECT_NEAR(result.noise, 2.0, 1e-9) << seed;
+    quiet += result.verdict == loop::Verdict::kNoEffect ? 1 : 0;
+  }
+  EXPECT_GE(quiet, 18);
 }
 
 // A nick three values wide on one trace: 15 times the noise at its middle.
