@@ -278,6 +278,14 @@ void TrialFit::put_product_of_parts(const Effect& effect, const RowSet& at,
     parts.push_back(
         {values_at(part, by_kind ? first_of_kinds_ : at), by_kind ? alike_->kind.data() : nullptr});
   }
+  const bool of_values = std::all_of(parts.begin(), parts.end(),
+                                     [](const Part& part) { return part.kinds == nullptr; });
+  if (at.of_scan && of_values && effect.flank == FlankChoice::kBoth) {
+    columns = *parts.front().values;
+    for (std::size_t k = 1; k < parts.size(); ++k) columns.array() *= parts[k].values->array();
+    columns.array() += 0.0;  // (no zero has a sign)
+    return;
+  }
   const PreparedEffect prepared(geometry_, effect);
   for (std::size_t i = 0; i < at.places.size(); ++i) {
     double& value = columns(static_cast<Eigen::Index>(i));
@@ -305,7 +313,12 @@ bool TrialFit::is_of_kinds(const Effect& effect) const {
 
 TrialFit::Columns TrialFit::short_columns_of(const Effect& effect) const {
   if (is_of_kinds(effect)) return {*values_at(effect, first_of_kinds_), true};
-  Eigen::MatrixXd columns = *values_at(effect, all_rows_);
+  Eigen::MatrixXd columns;
+  if (effect.family->parts) {  // (nobody keeps them: no copy)
+    columns = Eigen::MatrixXd::Zero(columns_.rows(), 1);
+    put_product_of_parts(effect, all_rows_, columns);
+  } else
+    columns = *values_at(effect, all_rows_);
   centre(columns);
   return {std::move(columns), false};
 }
