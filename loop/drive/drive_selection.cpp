@@ -10,7 +10,6 @@
 #include "trueflank/loop/drive/spell_scan.h"
 #include "trueflank/loop/drive/states_scan.h"
 #include "trueflank/loop/drive/wander_scan.h"
-#include "trueflank/loop/drive/wave_spectrum.h"
 
 namespace trueflank::loop {
 namespace {
@@ -324,7 +323,7 @@ bool DriveSelection::propose_wave(const DriveOutcome& outcome) {
   if (gains_power() && !losses_beside_gains_) return false;
   const DriveContext here = context();
   const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
-  const LikeliestOrder line = likeliest_order(here, value_ - fit.explained_nm());
+  const LikeliestOrder line = spectra_.likeliest_order(table_, value_ - fit.explained_nm());
   constexpr double kLevel = 0.002;  // searched beside the engine's own test
   if (!(line.p_value < kLevel)) return false;
   for (const DriveEffect& candidate : candidates_)

@@ -12,6 +12,7 @@
 
 #include "trueflank/loop/drive/close_drive_loop.h"
 #include "trueflank/loop/drive/drive_fit.h"
+#include "trueflank/loop/drive/wave_spectrum.h"
 
 namespace trueflank::loop {
 
@@ -209,6 +210,7 @@ class DriveSelection {
   std::vector<DriveEffect> candidates_;
   DriveProblem problem_;  ///< made for candidates and state when they were last asked
   std::vector<bool> banned_;
+  WaveSpectra spectra_;
   std::map<std::string, std::set<std::string>> exchangeable_;
   bool vetoed_ = false;  ///< effects were taken back
   bool losses_beside_gains_ = false;

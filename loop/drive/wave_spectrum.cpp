@@ -2,8 +2,11 @@
 #include "trueflank/loop/drive/wave_spectrum.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <deque>
 #include <unsupported/Eigen/FFT>
+#include <utility>
 
 #include "trueflank/base/units.h"
 
@@ -18,22 +21,111 @@ constexpr double kMostLines = 3e5;
 /// Rows times lines from which on the lines are summed by a transform.
 constexpr double kMuch = 2e7;
 
+/// Lines at equal steps of the order.
+struct Lines {
+  double first = 0.0, step = 0.0;
+  int count = 0;
+  bool operator==(const Lines&) const = default;
+};
+
+/// Every row is spread by a Gaussian on a grid of twice the lines; the grid's fast Fourier
+/// transform is the wanted sum times the Gaussian's own transform, which is divided out.
+class LineSums {
+ public:
+  LineSums() { transform_.SetFlag(Eigen::FFT<double>::Unscaled); }
+  std::vector<Complex> of(const std::vector<double>& angle_rad, const std::vector<double>& size,
+                          const Lines& lines) {
+    // The Gaussian falls to 1e-12 over so many places of a grid twice as fine as the lines.
+    constexpr int kReach = 12;
+    const int half = length_from(lines.count), grid = 2 * half;
+    const double n = half, spread = kPi * kReach / (n * n * 3.0);
+    const double place = kTwoPi / grid, middle = 0.5 * n;
+    spread_out_.assign(static_cast<std::size_t>(grid), Complex());
+    for (std::size_t i = 0; i < angle_rad.size(); ++i) {
+      const double turned = lines.step * angle_rad[i] / kTwoPi;
+      const double x = kTwoPi * (turned - std::floor(turned));
+      const Complex value = size[i] * std::polar(1.0, lines.first * angle_rad[i] + middle * x);
+      const int nearest = static_cast<int>(x / place);
+      for (int j = nearest - kReach + 1; j <= nearest + kReach; ++j) {
+        const double off = x - j * place;
+        spread_out_[static_cast<std::size_t>((j + grid) % grid)] +=
+            value * std::exp(-off * off / (4.0 * spread));
+      }
+    }
+    transform_.inv(sums_, spread_out_);
+    std::vector<Complex> result(static_cast<std::size_t>(lines.count));
+    for (int k = 0; k < lines.count; ++k) {
+      const double off = k - middle;
+      result[static_cast<std::size_t>(k)] =
+          sums_[static_cast<std::size_t>((k - half / 2 + grid) % grid)] *
+          (std::sqrt(kPi / spread) * std::exp(off * off * spread) / grid);
+    }
+    return result;
+  }
+
+ private:
+  /// The least multiple of 16 from this on without prime factors but 2, 3 and 5: the transform goes
+  /// by them.
+  static int length_from(int lines) {
+    const auto is_smooth = [](int n) {
+      for (const int factor : {2, 3, 5})
+        while (n % factor == 0) n /= factor;
+      return n == 1;
+    };
+    int sixteenth = std::max(1, (lines + 15) / 16);
+    while (!is_smooth(sixteenth)) ++sixteenth;
+    return 16 * sixteenth;
+  }
+
+  /// Keeps the factors of its length.
+  Eigen::FFT<double> transform_;
+  std::vector<Complex> spread_out_, sums_;
+};
+
+/// What a spectrum is asked of: rows that count.
+struct SpectrumRows {
+  std::vector<double> angle_rad, left, load;
+  std::vector<bool> forward;
+  double turns = 0.0;
+  bool both = false;  ///< directions
+  bool operator==(const SpectrumRows&) const = default;
+};
+
+SpectrumRows rows_of_spectrum(const BenchTable& table, const Eigen::VectorXd& left) {
+  SpectrumRows rows{.turns = table.turns, .both = table.has(true) && table.has(false)};
+  for (std::size_t i = 0; i < table.points.size(); ++i) {
+    const BenchPoint& p = table.points[i];
+    if (p.fold == 0) continue;
+    rows.angle_rad.push_back(p.angle_rad);
+    rows.left.push_back(left[static_cast<Eigen::Index>(i)] / p.sigma_nm);
+    rows.forward.push_back(p.forward);
+    rows.load.push_back(p.load_nm / table.most_load_nm);
+  }
+  return rows;
+}
+
+/// Line sums of the squares of weights that rows have, without the load and with it: they hang on
+/// what was run, not on what is left.
+struct SumsOfSquares {
+  std::vector<double> angle_rad, square;
+  Lines lines;
+  std::vector<Complex> sums;
+};
+
 class Spectrum {
  public:
-  Spectrum(const DriveContext& context, const Eigen::VectorXd& left)
-      : turns_(context.table.turns), wrapped_(turns_ <= 1.01) {
-    const BenchTable& table = context.table;
-    for (std::size_t i = 0; i < table.points.size(); ++i) {
-      const BenchPoint& p = table.points[i];
-      if (p.fold == 0) continue;
-      angle_.push_back(p.angle_rad);
-      left_.push_back(left[static_cast<Eigen::Index>(i)] / p.sigma_nm);
-      forward_.push_back(p.forward);
-      load_.push_back(p.load_nm / table.most_load_nm);
-      sum_ += left_.back() * left_.back();
-    }
+  Spectrum(const SpectrumRows& rows, LineSums& line_sums, std::array<SumsOfSquares, 2>& squares)
+      : turns_(rows.turns),
+        wrapped_(turns_ <= 1.01),
+        angle_(rows.angle_rad),
+        left_(rows.left),
+        load_(rows.load),
+        forward_(rows.forward),
+        line_sums_(line_sums),
+        squares_(squares),
+        both_(rows.both) {
+    for (const double one : left_) sum_ += one * one;
     rows_ = static_cast<double>(angle_.size());
-    both_ = table.has(true) && table.has(false);
     step_ = wrapped_ ? 1.0 : std::max(0.25 / turns_, kHighest / kMostLines);
     first_ = wrapped_ ? 1.0 : std::max(step_, 1.5 / turns_);
   }
@@ -126,65 +218,67 @@ class Spectrum {
 
   void all_lines_at_once() {
     const int lines = static_cast<int>((kHighest - first_) / step_) + 1;
-    const std::vector<Complex> of_size = line_sums(angle_, size_, first_, step_, lines);
+    const std::vector<Complex> of_size = line_sums_.of(angle_, size_, {first_, step_, lines});
     // The sums of squares are waves of twice the order; the directions' signs are not in them.
-    if (!opposite_) of_one_ = line_sums(angle_, square_, 2.0 * first_, 2.0 * step_, lines);
+    const std::vector<Complex>& of_one = of_squares({2.0 * first_, 2.0 * step_, lines});
     for (int k = 0; k < lines; ++k) {
       const auto at = static_cast<std::size_t>(k);
       judge(first_ + step_ * k, of_size[at].real(), of_size[at].imag(),
-            0.5 * (weights_ + of_one_[at].real()), 0.5 * of_one_[at].imag());
+            0.5 * (weights_ + of_one[at].real()), 0.5 * of_one[at].imag());
     }
+  }
+
+  const std::vector<Complex>& of_squares(const Lines& lines) {
+    SumsOfSquares& known = squares_[with_load_ ? 1 : 0];
+    if (known.lines != lines || known.angle_rad != angle_ || known.square != square_)
+      known = {angle_, square_, lines, line_sums_.of(angle_, square_, lines)};
+    return known.sums;
   }
 
   const double turns_;
   const bool wrapped_;
-  std::vector<double> angle_, left_, load_, size_, square_;
-  std::vector<Complex> of_one_;  ///< line sums of the squares, with the load or without
-  std::vector<bool> forward_;
+  const std::vector<double>&angle_, &left_, &load_;
+  const std::vector<bool>& forward_;
+  LineSums& line_sums_;
+  std::array<SumsOfSquares, 2>& squares_;
+  std::vector<double> size_, square_;
   double sum_ = 0.0, rows_ = 0.0, weights_ = 0.0, step_ = 1.0, first_ = 1.0, highest_ = 0.0;
-  bool both_ = false, opposite_ = false, with_load_ = false;
+  const bool both_;
+  bool opposite_ = false, with_load_ = false;
   int lines_ = 0, tried_ = 0;
   LikeliestOrder best_;
 };
 
 }  // namespace
 
-LikeliestOrder likeliest_order(const DriveContext& context, const Eigen::VectorXd& left) {
-  if (!context.table.has_angle || context.table.turns < 0.9) return {};
-  return Spectrum(context, left).highest();
+struct WaveSpectra::Kept {
+  struct Answer {
+    SpectrumRows rows;
+    LikeliestOrder order;
+  };
+  LineSums line_sums;
+  std::array<SumsOfSquares, 2> squares;
+  std::deque<Answer> answers;
+};
+
+WaveSpectra::WaveSpectra() : kept_(std::make_unique<Kept>()) {}
+WaveSpectra::~WaveSpectra() = default;
+
+LikeliestOrder WaveSpectra::likeliest_order(const BenchTable& table, const Eigen::VectorXd& left) {
+  constexpr std::size_t kMostKept = 4;
+  if (!table.has_angle || table.turns < 0.9) return {};
+  SpectrumRows rows = rows_of_spectrum(table, left);
+  for (const Kept::Answer& known : kept_->answers)
+    if (known.rows == rows) return known.order;
+  const LikeliestOrder found = Spectrum(rows, kept_->line_sums, kept_->squares).highest();
+  if (kept_->answers.size() == kMostKept) kept_->answers.pop_front();
+  kept_->answers.push_back({std::move(rows), found});
+  return found;
 }
 
 std::vector<Complex> line_sums(const std::vector<double>& angle_rad, const std::vector<double>& size,
                                double first, double step, int lines) {
-  // The Gaussian falls to 1e-12 over so many places of a grid twice as fine as the lines.
-  constexpr int kReach = 12;
-  int half = 16;
-  while (half < lines) half *= 2;
-  const int grid = 2 * half;
-  const double n = half, spread = kPi * kReach / (n * n * 3.0);
-  const double place = kTwoPi / grid, middle = 0.5 * n;
-  std::vector<Complex> spread_out(static_cast<std::size_t>(grid)), sums;
-  for (std::size_t i = 0; i < angle_rad.size(); ++i) {
-    const double turned = step * angle_rad[i] / kTwoPi;
-    const double x = kTwoPi * (turned - std::floor(turned));
-    const Complex value = size[i] * std::polar(1.0, first * angle_rad[i] + middle * x);
-    const int nearest = static_cast<int>(x / place);
-    for (int j = nearest - kReach + 1; j <= nearest + kReach; ++j) {
-      const double off = x - j * place;
-      spread_out[static_cast<std::size_t>((j + grid) % grid)] +=
-          value * std::exp(-off * off / (4.0 * spread));
-    }
-  }
-  Eigen::FFT<double> transform;
-  transform.SetFlag(Eigen::FFT<double>::Unscaled);
-  transform.inv(sums, spread_out);
-  std::vector<Complex> result(static_cast<std::size_t>(lines));
-  for (int k = 0; k < lines; ++k) {
-    const double off = k - middle;
-    result[static_cast<std::size_t>(k)] = sums[static_cast<std::size_t>((k - half / 2 + grid) % grid)] *
-                                          (std::sqrt(kPi / spread) * std::exp(off * off * spread) / grid);
-  }
-  return result;
+  return LineSums().of(angle_rad, size, {first, step, lines});
 }
 
 }  // namespace trueflank::loop

@@ -3,9 +3,11 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <memory>
 #include <vector>
 
-#include "trueflank/loop/drive/drive_effect.h"
+#include "trueflank/base/units.h"
+#include "trueflank/loop/drive/bench_table.h"
 
 // Waves over the input's angle in what a model leaves of a bench.
 namespace trueflank::loop {
@@ -18,12 +20,23 @@ struct LikeliestOrder {
   bool opposite = false;   ///< the two directions opposite, as what a sensor reads
   bool with_load = false;  ///< in proportion to the load
 };
-[[nodiscard]] LikeliestOrder likeliest_order(const DriveContext& context,
-                                             const Eigen::VectorXd& left);
+/// Spectra of one bench, for who asks several: what was asked before is not computed again.
+class WaveSpectra {
+ public:
+  WaveSpectra();
+  ~WaveSpectra();
+  WaveSpectra(const WaveSpectra&) = delete;
+  WaveSpectra& operator=(const WaveSpectra&) = delete;
+  /// Of what is left of each row [newton metres].
+  [[nodiscard]] LikeliestOrder likeliest_order(const BenchTable& table,
+                                               const Eigen::VectorXd& left);
 
-/// Sums of size exp(i (first + step k) angle) over all rows, k = 0 ... lines - 1. Every row is spread
-/// by a Gaussian on a grid of twice the lines; the grid's fast Fourier transform is the wanted sum
-/// times the Gaussian's own transform, which is divided out.
+ private:
+  struct Kept;
+  std::unique_ptr<Kept> kept_;
+};
+
+/// Sums of size exp(i (first + step k) angle) over all rows, k = 0 ... lines - 1.
 /// Accuracy: 1e-10 of the sum of all |size| (tested against the plain sum).
 [[nodiscard]] std::vector<std::complex<double>> line_sums(const std::vector<double>& angle_rad,
                                                           const std::vector<double>& size,

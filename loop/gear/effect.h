@@ -99,6 +99,10 @@ struct EffectFamily : EffectFacts {
     const EffectFamily* face = nullptr;
     std::size_t values = 0;
   } product_of_courses = {};
+  /// Of a form of one column that is a product: families of one column whose values, one times the
+  /// next in this order, it is, digit for digit. Where shapes are tried these are asked and kept:
+  /// most shapes differ from others in one of them. Empty: it is no such product.
+  std::function<std::vector<Effect>(const EffectShape&)> parts = {};
   bool shape_is_continuous = false;  ///< refined after the choice
   bool shape_is_step = false;        ///< the first value is a height at which the deviation jumps
   bool is_one_of_its_shapes = false; ///< once in a model, as when its shape is continuous

@@ -182,6 +182,8 @@ TrialFit fit_to_refine(const FlankGeometry& geometry, const SharedTable& table,
   return {geometry, table, patches, effects, stride_for(table)};
 }
 
+bool is_refined_by_all_rows(const Observations& table) { return stride_for(table) == 1; }
+
 bool can_be_refined(const std::vector<Effect>& effects, std::size_t first) {
   bool any = false;
   for (std::size_t e = 0; e < effects.size(); ++e) {

@@ -11,6 +11,8 @@ namespace trueflank::loop {
 /// The fit in which shapes are refined.
 [[nodiscard]] TrialFit fit_to_refine(const FlankGeometry& geometry, const SharedTable& table,
                                      const Patches& patches, const std::vector<Effect>& effects);
+/// True where that takes all rows of a table, not some of them.
+[[nodiscard]] bool is_refined_by_all_rows(const Observations& table);
 /// True where any has a shape that moves: for refine_shapes from the first on, for refine_nearby any.
 [[nodiscard]] bool can_be_refined(const std::vector<Effect>& effects, std::size_t first);
 

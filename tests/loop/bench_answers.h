@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tests/loop/sample_bench.h"
+#include "tests/support/survey_size.h"
 
 // What surveys of drawn benches count: answers with one form, its size and its place.
 namespace trueflank::test {
@@ -28,11 +29,7 @@ struct Answers {
   [[nodiscard]] std::string text() const {
     return std::to_string(right) + " of " + std::to_string(runs) + "\n" + others;
   }
-  /// Of so many, where each is right with this chance, fewer come once in a thousand surveys.
-  [[nodiscard]] int seldom_fewer(double chance) const {
-    return static_cast<int>(
-        std::floor(runs * chance - 3.1 * std::sqrt(runs * chance * (1.0 - chance))));
-  }
+  [[nodiscard]] int seldom_fewer(double chance) const { return test::seldom_fewer(runs, chance); }
 };
 
 /// The effect with this figure, if there is one alone.

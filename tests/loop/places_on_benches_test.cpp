@@ -90,19 +90,13 @@ void count(Tally& tally, const ResultAll<loop::DriveLoop>& closed, std::uint64_t
                   std::to_string(closed->result.held_out) + " held out\n";
 }
 
-/// Of so many, where each is right with this chance: fewer come once in a thousand surveys.
-int seldom_fewer(int runs, double chance) {
-  return static_cast<int>(
-      std::floor(runs * chance - 3.1 * std::sqrt(runs * chance * (1.0 - chance))));
-}
-
 void expect_told(const Tally& tally, double one_form, double holds) {
   EXPECT_GE(tally.one_form, seldom_fewer(tally.runs, one_form)) << tally.text();
   EXPECT_GE(tally.holds, seldom_fewer(tally.one_form, holds)) << tally.text();
   EXPECT_GE(tally.sized, seldom_fewer(tally.one_form, 0.95)) << tally.text();
 }
 
-const int kRuns = survey_size(20, 200);
+const int kRuns = survey_size(10, 200);
 
 TEST(PlacesOnBenches, ALossThatBeginsAtASpeedIsOneFormWithItsPlace) {
   Tally tally;

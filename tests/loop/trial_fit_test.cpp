@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <utility>
+#include <vector>
 
 #include "tests/loop/made_gears.h"
+#include "trueflank/loop/gear/effects/simple_courses.h"
 #include "trueflank/loop/gear/fit/point_fit.h"
 #include "trueflank/loop/gear/shape_refinement.h"
 #include "trueflank/loop/gear/table/alike_rows.h"
@@ -198,6 +201,14 @@ TEST_F(TrialFits, OneFitKnowsTheSquareWithoutAnyOfItsEffects) {
   EXPECT_NEAR(fit.residual_square({true, false, true}) / square({effects[0], effects[2]}), 1.0,
               1e-9);
   EXPECT_NEAR(fit.residual_square({false, false, false}) / square({}), 1.0, 1e-9);
+}
+
+TEST_F(TrialFits, AFormOfAScanIsNotPutInThePlaceOfAnother) {
+  const std::vector<Effect> effects{wave(3.3), wave(1.7)};
+  loop::TrialFit fit(geometry_, table_, patches_, effects);
+  EXPECT_FALSE(fit.put_effect(1, wave(2.0)));
+  EXPECT_TRUE(fit.put_effect(1, wave(1.7)));  // (it stands there)
+  EXPECT_EQ(fit.effects(), effects);
 }
 
 TEST_F(TrialFits, TwoWavesDoNotMeetAtOneLength) {
@@ -426,6 +437,92 @@ TEST_F(TrialFitsOfTraces, ADriftThatOnlyTheirZerosKnowTakesNothing) {
       EXPECT_EQ(trials[i].retained, 0.0);
     }
   }
+}
+
+/// Places of the body: whole, along a part of profile or face, outwards; several around the gear,
+/// which end.
+std::vector<loop::EffectShape> places_of_the_body(const MadeGear& gear) {
+  using loop::gear_effects::FlankCourse;
+  const FlankCourse whole, above{FlankCourse::kStep, 0.4 * gear.face_mm, 1.0, 0.5},
+      band{FlankCourse::kBand, 0.6 * gear.face_mm, 0.0, 1.5},
+      tip{FlankCourse::kKink, 2.0 * gear.reference(), 1.0};
+  std::vector<loop::EffectShape> shapes;
+  for (const auto& [number, at_deg, half_deg] :
+       {std::array{1.0, 40.0, 25.0}, std::array{1.0, 355.0, 70.0}, std::array{3.0, 100.0, 9.0}})
+    for (const auto& [profile, face] :
+         {std::pair(whole, whole), std::pair(whole, above), std::pair(whole, band),
+          std::pair(tip, whole), std::pair(tip, band)})
+      for (const double radial : {0.0, 1.0}) {
+        loop::EffectShape shape{number, radial, at_deg, half_deg};
+        shape.resize(4 + 2 * FlankCourse::kValues + 1);
+        profile.put_in(shape, 4);
+        face.put_in(shape, 4 + FlankCourse::kValues);
+        shape.back() = number > 1.0 ? 1.0 : 0.0;  // (ends)
+        shapes.push_back(std::move(shape));
+      }
+  return shapes;
+}
+
+TEST_F(TrialFitsOfTraces, FormsMadeOfTheirPartsAreTheFormsToTheLastDigit) {
+  InspectionOptions options;
+  for (int tooth = 1; tooth <= gear_.teeth; ++tooth) options.teeth.push_back(tooth);
+  options.points = 30;
+  options.radial = true;  // (a ball touches two flanks: a row of two places)
+  loop::MeasuredData traces, scan;
+  traces.inspections.push_back(inspection_of(gear_, {off_centre(6.0, 30.0)}, options));
+  scan.scans.push_back(scan_of(gear_, {}, {.points = 3000, .noise_um = 2.0}));
+  const std::vector<loop::EffectShape> shapes = places_of_the_body(gear_);
+  const loop::EffectFamily* place = family("unnamed_body_place");
+  // The same without parts: every row asks the form itself.
+  loop::EffectFamily whole = *place;
+  whole.parts = {};
+  for (const bool scanned : {false, true}) {
+    const loop::Observations table =
+        *make_observations(geometry_, scanned ? scan : traces, {.aligned = scanned});
+    const loop::Patches patches = make_patches(geometry_, table);
+    for (const loop::FlankChoice flank : {loop::FlankChoice::kBoth, loop::FlankChoice::kLeft}) {
+      const auto fit_of = [&](const loop::EffectFamily* one) {
+        return loop::TrialFit(geometry_, table, patches,
+                              {of("unnamed_waviness", {1.0, 3.3}), {one, flank, shapes.front()}});
+      };
+      const loop::TrialFit of_parts = fit_of(place), of_whole = fit_of(&whole);
+      const auto tried = of_parts.with_shapes(1, shapes, 1e300),
+                 expected = of_whole.with_shapes(1, shapes, 1e300);
+      for (std::size_t i = 0; i < shapes.size(); ++i) {
+        EXPECT_EQ(tried[i].square, expected[i].square) << scanned << ' ' << i;
+        EXPECT_EQ(tried[i].retained, expected[i].retained) << scanned << ' ' << i;
+        EXPECT_EQ(of_parts.columns_of({place, flank, shapes[i]}),
+                  of_whole.columns_of({&whole, flank, shapes[i]}))
+            << scanned << ' ' << i;
+      }
+    }
+  }
+}
+
+TEST_F(TrialFitsOfTraces, AnotherFormInTheLastPlaceIsAsIfItHadStoodThereFromTheBeginning) {
+  const double height = 0.4 * gear_.face_mm;
+  std::vector<Effect> effects{of("eccentricity", {}), of("unnamed_waviness", {1.0, 3.3}),
+                              of("unnamed_kink", {1.0, height, 1.0})};
+  loop::TrialFit kept(geometry_, table_, patches_, effects);
+  const loop::EffectShape place = places_of_the_body(gear_)[2];
+  for (const Effect& other :
+       {of("unnamed_kink", {1.0, height, -1.0}), of("unnamed_band", {1.0, height, 1.0}),
+        of("unnamed_body_place", place), of("unnamed_sector", {4, 6, 0, 1, 0}),
+        of("unnamed_kink", {1.0, height, 1.0})}) {
+    ASSERT_TRUE(kept.put_effect(2, other)) << other.family->id;
+    effects.back() = other;
+    const loop::TrialFit fresh(geometry_, table_, patches_, effects);
+    EXPECT_EQ(kept.residual_square(), fresh.residual_square()) << other.family->id;
+    for (std::size_t e = 0; e < effects.size(); ++e) {
+      EXPECT_EQ(kept.coefficients(e), fresh.coefficients(e)) << other.family->id;
+      EXPECT_EQ(kept.as_is(e).square, fresh.as_is(e).square) << other.family->id;
+      EXPECT_EQ(kept.as_is(e).retained, fresh.as_is(e).retained) << other.family->id;
+    }
+  }
+  // Not of another number of columns, nor in another's place.
+  EXPECT_FALSE(kept.put_effect(2, of("unnamed_waviness", {1.0, 2.0})));
+  EXPECT_FALSE(kept.put_effect(1, of("unnamed_waviness", {1.0, 2.0})));
+  EXPECT_EQ(kept.effects(), effects);
 }
 
 TEST_F(TrialFitsOfTraces, FindTheLengthOfTheirWaves) {

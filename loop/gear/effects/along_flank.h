@@ -98,6 +98,15 @@ namespace trueflank::loop::gear_effects {
   return before + printed("%.2g mm", length_mm) + (face != 0.0 ? "" : " of roll length") + after;
 }
 
+/// std::remainder, which takes longer than all else of a form, where the number is not far around.
+[[nodiscard]] inline double off_around(double off, double around) {
+  const double half = 0.5 * around;
+  if (std::abs(off) < half) return off;
+  if (off > half && off < 1.5 * around) return off - around;  // without rounding
+  if (off < -half && off > -1.5 * around && off != -around) return off + around;
+  return std::remainder(off, around);
+}
+
 /// 1 at its place, and dying away to both sides.
 [[nodiscard]] inline double bell(double off, double width) {
   return std::exp(-off * off / (width * width));

@@ -39,6 +39,46 @@ double worth_of_radius(const FlankGeometry& g, const Place& p) {
   return normal_part(g, p, p.polar_direction[0], p.polar_direction[1]);
 }
 
+/// So many bells, or what `ends` 1, about directions that are evenly spaced: 1 in the middle of
+/// one.
+double bells_towards(const Place& p, double number, double at_deg, double half_deg, double ends) {
+  constexpr double kNothing = 6.0;  // half widths
+  const double half = rad_from_deg(half_deg), apart = kTwoPi / number;
+  const double off = off_around(p.polar_rad - rad_from_deg(at_deg), apart);
+  double size = 0.0;
+  for (const double next : {-apart, 0.0, apart})  // (one place: once)
+    if (std::abs(off + next) < std::min(kNothing * half, kPi + half))
+      size += ends == 0.0 ? bell(off + next, half) : bell_that_ends(off + next, half);
+  return size;
+}
+
+double of_both_courses(const FlankGeometry& g, const Place& p, const EffectShape& shape,
+                       std::size_t profile, std::size_t face) {
+  return FlankCourse::at(shape, profile).value(g, 0.0, p.roll_mm) *
+         FlankCourse::at(shape, face).value(g, 1.0, p.z_mm);
+}
+
+/// What a place of the body is the product of: bells around the gear, courses over the flank, what
+/// a radius is worth.
+struct PartsOfPlace {
+  EffectFamily around = described("part_around", {"number", "at_deg", "half_deg", "ends"});
+  EffectFamily along = described("part_along_flank", {});
+  EffectFamily radius = described("part_of_radius", {});
+
+  PartsOfPlace() {
+    around.evaluate = [](const FlankGeometry&, const Place& p, const EffectShape& s, double* c) {
+      c[0] = p.surface == Surface::kFlank ? bells_towards(p, s[0], s[1], s[2], s[3]) : 0.0;
+    };
+    along.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& s, double* c) {
+      c[0] = p.surface == Surface::kFlank ? of_both_courses(g, p, s, 0, FlankCourse::kValues) : 0.0;
+    };
+    along.same_on_every_tooth = [](const EffectShape&) { return true; };
+    radius.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape&, double* c) {
+      c[0] = p.surface == Surface::kFlank ? worth_of_radius(g, p) : 0.0;
+    };
+  }
+};
+
 bool has_course(const EffectShape& shape, std::size_t first) {
   return FlankCourse::at(shape, first).kind != FlankCourse::kWhole;
 }
@@ -147,18 +187,23 @@ EffectFamily unnamed_body_place() {
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = 0.0;
     if (p.surface != Surface::kFlank) return;
-    constexpr double kNothing = 6.0;  // half widths
-    const double half = rad_from_deg(shape[3]), apart = kTwoPi / shape[0];
-    const double off = std::remainder(p.polar_rad - rad_from_deg(shape[2]), apart);
-    double size = 0.0;
-    for (const double next : {-apart, 0.0, apart})  // (one place: once)
-      if (std::abs(off + next) < std::min(kNothing * half, kPi + half))
-        size +=
-            shape[kEndsOfPlace] == 0.0 ? bell(off + next, half) : bell_that_ends(off + next, half);
+    double size = bells_towards(p, shape[0], shape[2], shape[3], shape[kEndsOfPlace]);
     if (size == 0.0) return;
-    size *= FlankCourse::at(shape, kProfileOfPlace).value(g, 0.0, p.roll_mm) *
-            FlankCourse::at(shape, kFaceOfPlace).value(g, 1.0, p.z_mm);
+    size *= of_both_courses(g, p, shape, kProfileOfPlace, kFaceOfPlace);
     c[0] = shape[1] == 0.0 ? size : size * worth_of_radius(g, p);
+  };
+  f.parts = [](const EffectShape& shape) {
+    static const PartsOfPlace families;
+    std::vector<Effect> parts{{&families.around,
+                               FlankChoice::kBoth,
+                               {shape[0], shape[2], shape[3], shape[kEndsOfPlace]}}};
+    if (has_course(shape, kProfileOfPlace) || has_course(shape, kFaceOfPlace))
+      parts.push_back({&families.along,
+                       FlankChoice::kBoth,
+                       {shape.begin() + std::ptrdiff_t{kProfileOfPlace},
+                        shape.begin() + std::ptrdiff_t{kEndsOfPlace}}});
+    if (shape[1] != 0.0) parts.push_back({&families.radius, FlankChoice::kBoth, {}});
+    return parts;
   };
   f.needs = [](const EffectShape& shape) {
     const bool profile = has_course(shape, kProfileOfPlace), face = has_course(shape, kFaceOfPlace);

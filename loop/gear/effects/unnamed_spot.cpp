@@ -81,15 +81,6 @@ std::string about_tooth(int teeth, double tooth, double half_teeth) {
                         : printed(", %.0f teeth to either side", beside));
 }
 
-/// std::remainder, which takes longer than all else here, where the number is not far around.
-double off_around(double teeth, double around) {
-  const double half = 0.5 * around;
-  if (std::abs(teeth) < half) return teeth;
-  if (teeth > half && teeth < 1.5 * around) return teeth - around;  // without rounding
-  if (teeth < -half && teeth > -1.5 * around && teeth != -around) return teeth + around;
-  return std::remainder(teeth, around);
-}
-
 }  // namespace
 
 EffectFamily unnamed_dent() {

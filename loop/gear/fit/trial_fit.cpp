@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "trueflank/base/threads.h"
+#include "trueflank/loop/gear/fit/column_products.h"
 
 namespace trueflank::loop {
 namespace {
@@ -205,7 +206,10 @@ EffectValues::Values TrialFit::values_at(const Effect& effect, const RowSet& at)
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(at.rows.size()), effect.columns()));
   if (effect.family->product_of_courses.values > 0 && at.of_scan)
     put_product_of_courses(effect, at, *values);
-  else
+  else if (effect.family->parts) {
+    put_product_of_parts(effect, at, *values);
+    return values;  // (quickly made of its parts, which are kept)
+  } else
     put_values(effect, at, *values);
   shared_.values().keep(effect, at.key, values);
   return values;
@@ -258,6 +262,50 @@ void TrialFit::put_product_of_courses(const Effect& effect, const RowSet& at,
   }
 }
 
+/// Parts that are the same on every tooth are asked once for all rows that differ by it alone.
+void TrialFit::put_product_of_parts(const Effect& effect, const RowSet& at,
+                                    Eigen::MatrixXd& columns) const {
+  struct Part {
+    EffectValues::Values values;
+    const std::uint32_t* kinds = nullptr;  ///< of rows; none: it has a value for each
+    [[nodiscard]] double at(std::size_t i) const {
+      return (*values)(static_cast<Eigen::Index>(kinds == nullptr ? i : kinds[i]));
+    }
+  };
+  std::vector<Part> parts;
+  for (const Effect& part : effect.family->parts(effect.shape)) {
+    const bool by_kind = &at == &all_rows_ && has_exact_kinds() && is_of_kinds(part);
+    parts.push_back(
+        {values_at(part, by_kind ? first_of_kinds_ : at), by_kind ? alike_->kind.data() : nullptr});
+  }
+  const bool of_values = std::all_of(parts.begin(), parts.end(),
+                                     [](const Part& part) { return part.kinds == nullptr; });
+  if (at.of_scan && of_values && effect.flank == FlankChoice::kBoth) {
+    columns = *parts.front().values;
+    for (std::size_t k = 1; k < parts.size(); ++k) columns.array() *= parts[k].values->array();
+    columns.array() += 0.0;  // (no zero has a sign)
+    return;
+  }
+  const PreparedEffect prepared(geometry_, effect);
+  for (std::size_t i = 0; i < at.places.size(); ++i) {
+    double& value = columns(static_cast<Eigen::Index>(i));
+    const PlaceOfRow& of_row = at.places[i];
+    if (of_row.is_one) {
+      double product = parts.front().at(i);
+      if (product == 0.0 || !prepared.acts_on(of_row.tooth, of_row.flank)) continue;
+      for (std::size_t k = 1; k < parts.size(); ++k) product *= parts[k].at(i);
+      value += product;
+      continue;
+    }
+    const Observation& row = table_.rows[at.rows[i]];
+    for (std::uint32_t p = 0; p < row.places; ++p) {
+      double one = 0.0;
+      prepared.evaluate(table_.places[row.first_place + p], &one);
+      value += row.weight * one;
+    }
+  }
+}
+
 bool TrialFit::is_of_kinds(const Effect& effect) const {
   return alike_ && effect.family->same_on_every_tooth &&
          effect.family->same_on_every_tooth(effect.shape);
@@ -265,7 +313,12 @@ bool TrialFit::is_of_kinds(const Effect& effect) const {
 
 TrialFit::Columns TrialFit::short_columns_of(const Effect& effect) const {
   if (is_of_kinds(effect)) return {*values_at(effect, first_of_kinds_), true};
-  Eigen::MatrixXd columns = *values_at(effect, all_rows_);
+  Eigen::MatrixXd columns;
+  if (effect.family->parts) {  // (nobody keeps them: no copy)
+    columns = Eigen::MatrixXd::Zero(columns_.rows(), 1);
+    put_product_of_parts(effect, all_rows_, columns);
+  } else
+    columns = *values_at(effect, all_rows_);
   centre(columns);
   return {std::move(columns), false};
 }
@@ -309,6 +362,27 @@ Eigen::MatrixXd TrialFit::products_with_all(const Columns& columns) const {
   for (Eigen::Index k = 0; k < products.cols(); ++k)
     products.col(k).noalias() =
         (columns.of_kinds ? of_kinds_ : columns_).transpose() * columns.values.col(k);
+  return products;
+}
+
+/// The same of each of several, which have rows for each value.
+std::vector<Eigen::MatrixXd> TrialFit::products_of_several(
+    const std::vector<Columns>& several) const {
+  std::vector<Eigen::MatrixXd> products;
+  if (std::any_of(several.begin(), several.end(), [](const Columns& c) { return c.of_kinds; })) {
+    for (const Columns& columns : several) products.push_back(products_with_all(columns));
+    return products;
+  }
+  std::vector<const double*> all;
+  for (const Columns& columns : several)
+    for (Eigen::Index k = 0; k < columns.values.cols(); ++k)
+      all.push_back(columns.values.col(k).data());
+  const Eigen::MatrixXd of_all = column_products(columns_, all);
+  Eigen::Index first = 0;
+  for (const Columns& columns : several) {
+    products.emplace_back(of_all.middleCols(first, columns.values.cols()));
+    first += columns.values.cols();
+  }
   return products;
 }
 
@@ -436,17 +510,29 @@ std::vector<TrialFit::Trial> TrialFit::with_shapes(std::size_t effect,
                           });
     return trials;
   }
-  const auto try_one = [&](std::size_t i) {
-    Effect moved = effects_[effect];
-    moved.shape = shapes[i];
-    const Columns columns = short_columns_of(moved);
-    trials[i] = others.with(products_with_all(columns), own_products(columns), below);
+  const auto moved_to = [&](const EffectShape& shape) {
+    return Effect{effects_[effect].family, effects_[effect].flank, shape};
   };
   // Of kinds of rows they take less than a thread does to begin.
-  if (is_of_kinds(effects_[effect]))
-    for (std::size_t i = 0; i < shapes.size(); ++i) try_one(i);
-  else
-    for_each_piece(shapes.size(), try_one);
+  if (is_of_kinds(effects_[effect])) {
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      const Columns columns = short_columns_of(moved_to(shapes[i]));
+      trials[i] = others.with(products_with_all(columns), own_products(columns), below);
+    }
+    return trials;
+  }
+  // Some together, as the columns that stand are read once for them.
+  constexpr std::size_t kMostTogether = 8;
+  const std::size_t together =
+      std::clamp<std::size_t>(shapes.size() / (2 * processors()), 1, kMostTogether);
+  for_each_run(shapes.size(), together, [&](std::size_t from, std::size_t to) {
+    std::vector<Columns> columns;
+    for (std::size_t i = from; i < to; ++i)
+      columns.push_back(short_columns_of(moved_to(shapes[i])));
+    std::vector<Eigen::MatrixXd> products = products_of_several(columns);
+    for (std::size_t i = from; i < to; ++i)
+      trials[i] = others.with(products[i - from], own_products(columns[i - from]), below);
+  });
   return trials;
 }
 
@@ -461,6 +547,18 @@ void TrialFit::set_shapes(const std::vector<Effect>& effects) {
   put_columns(moved);
   put_products(moved);
   solve();
+}
+
+bool TrialFit::put_effect(std::size_t effect, const Effect& other) {
+  if (effects_[effect] == other) return true;
+  if (!has_exact_kinds() || effect + 1 != effects_.size() ||
+      effects_[effect].columns() != other.columns())
+    return false;
+  effects_[effect] = other;
+  put_columns({effect});
+  put_products({effect});
+  solve();
+  return true;
 }
 
 Eigen::VectorXd TrialFit::joint_coefficients(const std::vector<Change>& more) const {

@@ -47,6 +47,10 @@ class TrialFit {
                                                double below) const;
   /// Puts shapes in place of those that effects have.
   void set_shapes(const std::vector<Effect>& effects);
+  /// Puts another in the place of the last effect, digit for digit as if it had stood there from
+  /// the beginning. False, and nothing is done, where that would not be so: of scans, of another
+  /// number of columns.
+  [[nodiscard]] bool put_effect(std::size_t effect, const Effect& other);
   /// The columns of an effect, weighted, zeros of traces taken out: one row a value that counts.
   [[nodiscard]] Eigen::MatrixXd columns_of(const Effect& effect) const;
   /// What effects' columns change by from one shape to another, times coefficients: a column each.
@@ -98,10 +102,13 @@ class TrialFit {
   void put_values(const Effect& effect, const RowSet& at, Eigen::MatrixXd& columns) const;
   void put_product_of_courses(const Effect& effect, const RowSet& at,
                               Eigen::MatrixXd& columns) const;
+  void put_product_of_parts(const Effect& effect, const RowSet& at, Eigen::MatrixXd& columns) const;
   [[nodiscard]] Columns short_columns_of(const Effect& effect) const;
   [[nodiscard]] Eigen::MatrixXd zeros_of_kinds(const Eigen::MatrixXd& values) const;
   [[nodiscard]] Eigen::MatrixXd full(const Columns& columns) const;
   [[nodiscard]] Eigen::MatrixXd products_with_all(const Columns& columns) const;
+  [[nodiscard]] std::vector<Eigen::MatrixXd> products_of_several(
+      const std::vector<Columns>& several) const;
   [[nodiscard]] Eigen::MatrixXd own_products(const Columns& columns) const;
   void find_places_on_flanks();
   [[nodiscard]] bool is_form_times_tooth(const Effect& effect) const;

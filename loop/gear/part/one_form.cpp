@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -316,20 +317,21 @@ std::vector<Effect> best_form_sought(const PartModel& model, std::vector<Effect>
   };
   std::vector<Best> best;
   rest.emplace_back();
-  for (std::size_t first = 0; first < forms.size();) {
+  std::optional<TrialFit> kept;  // (of traces the next form is put in place of the last one)
+  const auto fit_of_rest = [&]() -> TrialFit& {
+    if (!kept || !kept->put_effect(at, rest.back()))
+      kept.emplace(model.geometry, model.table, model.patches, rest, 1,
+                   cells_for(model.geometry, rest));
+    return *kept;
+  };
+  for (std::size_t first = 0, next = 0; first < forms.size(); first = next) {
     const EffectFamily* family = forms[first].family;
     std::vector<EffectShape> shapes;
-    std::size_t next = first;
     for (; next < forms.size() && forms[next].family == family; ++next)
       if (is_within_reach(model, forms[next])) shapes.push_back(forms[next].shape);
+    if (shapes.empty()) continue;
     rest.back() = forms[first];
-    if (shapes.empty()) {
-      first = next;
-      continue;
-    }
-    const TrialFit fit(model.geometry, model.table, model.patches, rest, 1,
-                       cells_for(model.geometry, rest));
-    const std::vector<TrialFit::Trial> trials = fit.with_shapes(at, shapes, 1e300);
+    const std::vector<TrialFit::Trial> trials = fit_of_rest().with_shapes(at, shapes, 1e300);
     Best own{.square = most.on_the_grid};
     for (std::size_t i = 0; i < shapes.size(); ++i) {
       if (trials[i].retained < kToldApart || !(trials[i].square < own.square)) continue;
@@ -337,7 +339,6 @@ std::vector<Effect> best_form_sought(const PartModel& model, std::vector<Effect>
       own.form.shape = shapes[i];
     }
     if (own.form.family != nullptr) best.push_back(std::move(own));
-    first = next;
   }
   if (best.empty()) return {};
   std::stable_sort(best.begin(), best.end(),
@@ -354,9 +355,7 @@ std::vector<Effect> best_form_sought(const PartModel& model, std::vector<Effect>
     for (Best& one : best) {
       if (!moves(one.form)) continue;
       rest.back() = one.form;
-      const FlankCells cells = cells_for(model.geometry, rest);
-      const TrialFit fit(model.geometry, model.table, model.patches, rest, 1, cells);
-      one.square = move_alone(model.geometry, fit, at, one.form.shape);
+      one.square = move_alone(model.geometry, fit_of_rest(), at, one.form.shape);
     }
   std::size_t chosen = 0;
   for (std::size_t i = 1; i < best.size(); ++i)
@@ -366,7 +365,11 @@ std::vector<Effect> best_form_sought(const PartModel& model, std::vector<Effect>
   rest.back() = least.form;
   if (rest.back().family->shape_is_continuous)
     refine_shapes(model.geometry, model.table, model.patches, rest, at);
-  else
+  else if (model.table->points_mm.empty() && is_refined_by_all_rows(model.table) &&
+           kept->put_effect(at, rest.back())) {
+    refine_nearby(model.geometry, *kept);
+    rest = kept->effects();
+  } else
     refine_nearby(model.geometry, model.table, model.patches, rest);
   return rest;
 }
