@@ -14,6 +14,7 @@
 #include "trueflank/loop/discovery/loudness.h"
 #include "trueflank/loop/discovery/nicks.h"
 #include "trueflank/loop/discovery/order_statistics.h"
+#include "trueflank/loop/discovery/window_roughness.h"
 
 namespace trueflank::loop {
 namespace {
@@ -40,6 +41,10 @@ class CourseScan {
   explicit CourseScan(const std::vector<MatrixXd>& sets) : sets_(sets), m_(sets.front().rows()) {
     for (const MatrixXd& set : sets_) louds_.push_back(loudness(set));
     tell_noise();
+    tell_louder_of_few();
+    std::vector<std::vector<double>> scatters;
+    for (const Louder& of_set : louds_) scatters.push_back(of_set.scatters);
+    loud_places_ = loudness_of_places(sets_, scatters);
     clip();
     tell_spectrum();
   }
@@ -120,13 +125,14 @@ class CourseScan {
   void clip() {
     std::vector<double> all;
     for (std::size_t s = 0; s < sets_.size(); ++s)
-      for (const double value : sets_[s].reshaped()) all.push_back(value / noise_[s]);
+      for (const double value : (sets_[s].array().colwise() / loud_places_.array()).reshaped())
+        all.push_back(value / noise_[s]);
     const double usual = kClip * robust_sigma(all);
     for (double& value : all) value = std::clamp(value, -usual, usual);
     excess_ = excess_kurtosis(all);
     for (std::size_t s = 0; s < sets_.size(); ++s) {
       const MatrixXd& set = sets_[s];
-      const double limit = usual * noise_[s];
+      const MatrixXd limit = (usual * noise_[s] * loud_places_).replicate(1, set.cols());
       clipped_.push_back(set.cwiseMax(-limit).cwiseMin(limit));
       mean_.push_back(set.cols() > 0 ? VectorXd(set.rowwise().mean()) : VectorXd::Zero(m_));
       mean_.back().array() -= mean_.back().mean();
@@ -394,6 +400,39 @@ class CourseScan {
             std::move(scatters)};
   }
 
+  /// Of few courses, those of all sets together tell which are louder.
+  void tell_louder_of_few() {
+    constexpr Index kFew = 5;
+    std::vector<double> scatters;
+    for (std::size_t s = 0; s < sets_.size(); ++s)
+      for (const double scatter : louds_[s].scatters) scatters.push_back(scatter / noise_[s]);
+    const Loudness loud =
+        loudness_of_few(scatters, std::vector(scatters.size(), static_cast<double>(m_)));
+    Index first = 0;
+    for (std::size_t s = 0; s < sets_.size(); first += sets_[s].cols(), ++s) {
+      if (sets_[s].cols() >= kFew) continue;
+      louds_[s].by =
+          Eigen::Map<const VectorXd>(loud.factors.data() + first, sets_[s].cols()).cwiseMax(1.0);
+      louds_[s].degrees = loud.degrees;
+    }
+  }
+
+  /// Takes off every course what it has where all courses are as loud as usual, if some places are
+  /// louder: there their means would be errors of the others.
+  void take_quiet_mean_off(MatrixXd& apart) const {
+    if (loud_places_.maxCoeff() == 1.0) return;
+    const VectorXd known = loud_places_.cwiseAbs2().cwiseInverse();
+    apart.rowwise() -= (known.transpose() * apart / known.sum()).eval();
+  }
+
+  /// By how much louder than usual windows of so many rows are.
+  [[nodiscard]] VectorXd loudness_of_windows(Index width) const {
+    VectorXd loud(m_ - width + 1);
+    for (Index i = 0; i < loud.size(); ++i)
+      loud[i] = std::sqrt(loud_places_.segment(i, width).cwiseAbs2().mean());
+    return loud;
+  }
+
   /// Courses less what is usual in each of them and at each place in all: where every one of few
   /// has a deep spot, a mean would be moved by these.
   [[nodiscard]] static MatrixXd apart_from_usual(const MatrixXd& set) {
@@ -410,47 +449,6 @@ class CourseScan {
     }
     for (Index c = 0; c < apart.cols(); ++c) apart.col(c).array() -= middle_of(apart.col(c));
     return apart;
-  }
-
-  /// Correlation of values at places beside each other, whatever few of them stand out.
-  [[nodiscard]] static double likeness_of_neighbours(const MatrixXd& set) {
-    const Index m = set.rows();
-    std::vector<double> steps, values(set.data(), set.data() + set.size());
-    for (Index c = 0; c < set.cols(); ++c)
-      for (Index i = 1; i < m; ++i) steps.push_back(set(i, c) - set(i - 1, c));
-    const double spread = robust_sigma(std::move(values)), step = robust_sigma(std::move(steps));
-    return spread > 0.0 ? 1.0 - 0.5 * step * step / (spread * spread) : 1.0;
-  }
-
-  /// How rough courses are from place to place, as squares, and how rough each is usually.
-  struct Roughness {
-    MatrixXd squares;
-    std::vector<double> usual;
-  };
-  [[nodiscard]] static Roughness roughness_of(const MatrixXd& set) {
-    const Index m = set.rows();
-    Roughness rough{MatrixXd::Zero(m, set.cols()), {}};
-    rough.squares.middleRows(1, m - 2) =
-        (set.topRows(m - 2) - 2.0 * set.middleRows(1, m - 2) + set.bottomRows(m - 2)).cwiseAbs2() /
-        6.0;
-    for (Index c = 0; c < set.cols(); ++c) rough.usual.push_back(short_wave_scatter(set.col(c)));
-    return rough;
-  }
-  /// How much rougher than usual a course is within each window, where it is: wild points and bursts of noise are,
-  /// what has a form is not. 1 elsewhere.
-  [[nodiscard]] static MatrixXd roughness(const Roughness& of, Index width) {
-    const Index m = of.squares.rows();
-    MatrixXd rough = MatrixXd::Ones(m - width + 1, of.squares.cols());
-    for (Index c = 0; c < rough.cols(); ++c) {
-      const double usual = of.usual[static_cast<std::size_t>(c)];
-      if (!(usual > 0.0)) continue;
-      for (Index i = 0; i + width <= m; ++i) {
-        const Index from = std::max<Index>(1, i - 1), to = std::min(m - 1, i + width + 1);
-        rough(i, c) =
-            std::max(1.0, std::sqrt(of.squares.col(c).segment(from, to - from).mean()) / usual);
-      }
-    }
-    return rough;
   }
 
   /// True of a set in which courses have waves of their own: their crests are no spots.
@@ -478,6 +476,7 @@ class CourseScan {
         common.array() -= common.mean();
         apart.colwise() -= common;
       }
+      take_quiet_mean_off(apart);
       clipped.push_back(std::move(apart));
       whole.push_back(apart_from_usual(sets_[s]));
       alike.push_back(likeness_of_neighbours(whole.back()));
@@ -492,13 +491,17 @@ class CourseScan {
         std::vector<double> spreads;  // of each set: one may be noisier
         constexpr double kEnough = 40.0;
         const double apart_each = static_cast<double>(m_) / static_cast<double>(width);
+        const VectorXd loud_windows = loudness_of_windows(width);
         for (std::size_t s = 0; s < sets_.size(); ++s) {
           const MatrixXd& apart = clip ? clipped[s] : whole[s];
           MatrixXd sums(m_ - width + 1, apart.cols());
           for (Index i = 0; i + width <= m_; ++i)
             sums.row(i) = apart.middleRows(i, width).colwise().mean();
           sums.array().rowwise() /= noise_[s] * louds_[s].by.transpose().array();
-          if (!clip && sums.size() > 0) sums.array() /= roughness(roughness_of_whole[s], width).array();
+          MatrixXd rough = loud_windows.replicate(1, sums.cols());
+          if (!clip && sums.size() > 0)
+            rough = rough.cwiseMax(roughness_in_windows(roughness_of_whole[s], width));
+          sums.array() /= rough.array();
           all.insert(all.end(), sums.data(), sums.data() + sums.size());
           spreads.push_back(
               static_cast<double>(sums.cols()) * apart_each < kEnough
@@ -540,7 +543,8 @@ class CourseScan {
       }
     keep(best, tests);
     for (std::size_t s = 0; s < whole.size(); ++s)
-      whole[s].array().rowwise() /= louds_[s].by.transpose().array();
+      whole[s] = (whole[s].array().rowwise() / louds_[s].by.transpose().array()).colwise() /
+                 loud_places_.array();
     if (const auto nick = nick_of(whole, alike)) keep(*nick, 1.0);
   }
 
@@ -550,6 +554,7 @@ class CourseScan {
   std::vector<VectorXd> mean_;
   std::vector<Louder> louds_;
   std::vector<double> noise_;  ///< of each set, over that of all
+  VectorXd loud_places_;       ///< 1, or by how much louder a row is in all courses
   VectorXd spectrum_;
   double excess_ = 0.0;  ///< kurtosis of single values
   double degrees_ = 0.0, courses_ = 0.0, count_ = 0.0, forms_ = 0.0, frequencies_ = 0.0;

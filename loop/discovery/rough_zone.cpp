@@ -58,14 +58,14 @@ TwoMedians medians_of(const ByPart& sizes, const Zone& zone) {
   return result;
 }
 
-/// How sure the courses are of a zone, and by what factor values differ more there.
+/// How sure the courses are of a zone, and by what factor values differ more there, and at least.
 struct Sureness {
-  double p_value = 1.0, ratio = 0.0;
+  double p_value = 1.0, ratio = 0.0, at_least = 0.0;
 };
 Sureness sureness_of(const std::vector<ByPart>& courses, const Zone& zone) {
   // Variance of the logarithm of a median of sizes, times their number; second differences share
   // values.
-  constexpr double kOfMedian = 2.7;
+  constexpr double kOfMedian = 2.7, kErrors = 2.0;
   std::vector<double> logs;
   double by_chance = 0.0;
   for (const ByPart& course : courses) {
@@ -81,7 +81,8 @@ Sureness sureness_of(const std::vector<ByPart>& courses, const Zone& zone) {
   for (const double log : logs) mean += log / n;
   for (const double log : logs) square += (log - mean) * (log - mean) / (n - 1.0);
   const double error = std::sqrt(std::max(square, by_chance / n) / n);
-  return {0.5 * student_two_sided(mean / error, n - 1.0), std::exp(mean)};
+  return {0.5 * student_two_sided(mean / error, n - 1.0), std::exp(mean),
+          std::exp(mean - kErrors * error)};
 }
 
 }  // namespace
@@ -114,6 +115,7 @@ std::optional<RoughZone> rough_zone(const std::vector<std::vector<ValueAlong>>& 
                    .to = static_cast<double>(zone.to) / kTwelfths,
                    .inside_um = kSigmaOfMedianSize * um.inside,
                    .outside_um = kSigmaOfMedianSize * um.outside,
+                   .at_least = surest.at_least,
                    .p_value = std::min(1.0, looks * surest.p_value)};
 }
 

@@ -16,6 +16,7 @@ struct ValueAlong {
 struct RoughZone {
   double from = 0.0, to = 0.0;               ///< 0 ... 1, whole twelfths
   double inside_um = 0.0, outside_um = 0.0;  ///< standard deviations of the values
+  double at_least = 1.0;  ///< values differ so many times as much, as far as is sure
   double p_value = 1.0;                      ///< corrected for all places and lengths looked at
 };
 

@@ -73,9 +73,9 @@ KnownProcess process_of(const MeasuredData& data, const LoopOptions& options) {
 bool is_more_than_noise(const LoopResult& result, const RandomError& noise) {
   constexpr double kAllowed = 1.15, kSure = 4.0;
   const bool any_held_out = result.held_out > 0;
-  const double allowed = std::max(
-      kAllowed,
-      1.0 + kSure / std::sqrt(2.0 * (any_held_out ? result.held_out : result.observations)));
+  const double known = any_held_out ? std::min<double>(result.held_out, noise.held_out_degrees)
+                                    : result.observations;
+  const double allowed = std::max(kAllowed, 1.0 + kSure / std::sqrt(2.0 * known));
   return any_held_out ? result.after.held_out_rms > allowed * noise.held_out_um
                       : result.after.rms > allowed * noise.um;
 }
@@ -85,7 +85,9 @@ double p_of_more_than_noise(const LoopResult& result, const RandomError& noise) 
   const bool any_held_out = result.held_out > 0;
   const double times =
       any_held_out ? result.after.held_out_rms / noise.held_out_um : result.after.rms / noise.um;
-  return f_tail(times * times, any_held_out ? result.held_out : result.observations,
+  return f_tail(times * times,
+                any_held_out ? std::min<double>(result.held_out, noise.held_out_degrees)
+                             : result.observations,
                 result.observations);
 }
 
@@ -100,6 +102,9 @@ LoopResult result_of(const FlankGeometry& geometry, const PartModel& model, cons
   result.noise = noise.um;
   result.notes = model.table->notes;
   for (std::string& note : notes_on(still_louder(geometry, model.table, model.patches, left_um)))
+    result.notes.push_back(std::move(note));
+  for (std::string& note :
+       notes_on_rough_traces(geometry, *model.table.operator->(), model.patches, left_um))
     result.notes.push_back(std::move(note));
   const auto told_um = [&](const Place& place) {
     double sum = 0.0, columns[8];

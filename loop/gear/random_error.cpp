@@ -10,6 +10,7 @@
 #include "trueflank/loop/discovery/loudness.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/discovery/own_relief.h"
+#include "trueflank/loop/discovery/window_roughness.h"
 #include "trueflank/loop/gear/local/reading_steps.h"
 #include "trueflank/loop/gear/scanned_flanks.h"
 
@@ -150,7 +151,7 @@ Variance variance_of_traces(std::vector<Whole>& wholes, double lost, const OwnCo
     scatters.push_back(short_wave_scatter(piece));
     shortest = std::min(shortest, piece.size());
   }
-  const std::vector<double> loud = loudness_of(scatters, pieces.values).factors;
+  const std::vector<double> loud = loudness_of_few(scatters, pieces.values).factors;
   std::vector<Eigen::VectorXd> spectra;
   for (std::size_t i = 0; i < loud.size(); ++i)
     spectra.push_back(cosine_spectrum(pieces.courses[i] / loud[i]));
@@ -218,16 +219,17 @@ struct Gathered {
 
 /// Sums over sides of a class.
 struct SumOfSides {
-  double sum = 0.0, count = 0.0, held_out_sum = 0.0, held_out = 0.0;
+  double sum = 0.0, count = 0.0, held_out_sum = 0.0, held_out = 0.0, by_chance = 0.0;
   void add(const Variance& of, double values) {
     sum += values * of.all;
     count += values;
     held_out_sum += of.held_out_count * of.held_out;
     held_out += of.held_out_count;
+    by_chance += of.of_held_out_sum;
   }
   [[nodiscard]] Variance mean() const {
     const double all = sum / count;
-    return {all, held_out > 0.0 ? held_out_sum / held_out : all, held_out};
+    return {all, held_out > 0.0 ? held_out_sum / held_out : all, held_out, by_chance};
   }
 };
 
@@ -363,6 +365,7 @@ std::map<ObservationKind, KindError> errors_of_kinds(const FlankGeometry& geomet
     error.random_square += data.count * variance.all;
     error.held_out_count += data.held_out;
     error.held_out_random_square += data.held_out * variance.held_out;
+    error.of_held_out_sum += variance.of_held_out_sum;
   }
   return errors;
 }
@@ -377,6 +380,7 @@ RandomError random_error(const FlankGeometry& geometry, const Observations& tabl
     all.count += error.count;
     all.held_out_random_square += error.held_out_random_square;
     all.held_out_count += error.held_out_count;
+    all.of_held_out_sum += error.of_held_out_sum;
   }
   // Of sizes alone their stated errors are all that is known.
   if (all.count == 0.0)
@@ -390,6 +394,11 @@ RandomError random_error(const FlankGeometry& geometry, const Observations& tabl
   result.held_out_um = all.held_out_count > 0.0
                            ? std::sqrt(all.held_out_random_square / all.held_out_count)
                            : result.um;
+  result.held_out_degrees = all.held_out_count;
+  if (all.of_held_out_sum > 0.0)
+    result.held_out_degrees =
+        std::min(result.held_out_degrees, 2.0 * all.held_out_random_square *
+                                              all.held_out_random_square / all.of_held_out_sum);
   return result;
 }
 

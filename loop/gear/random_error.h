@@ -24,6 +24,8 @@ struct WhatIsLeft {
 struct KindError {
   double count = 0.0, square = 0.0, random_square = 0.0;
   double held_out_count = 0.0, held_out_random_square = 0.0;  ///< of the locked hold-out
+  double of_held_out_sum =
+      0.0;  ///< variance of that square by chance [um^4], where some are louder
 };
 
 /// As random_error, each kind of record apart.
@@ -32,9 +34,10 @@ struct KindError {
     const std::vector<float>& row_um, const WhatIsLeft& left);
 
 /// Standard deviations [um] of the random error of all values, and of those on the locked hold-out:
-/// some teeth may be measured worse.
+/// some teeth may be measured worse. With how many degrees of freedom the mean square of these is
+/// known: as many as there are, or fewer where some count more, or are only known to be louder.
 struct RandomError {
-  double um = 0.0, held_out_um = 0.0;
+  double um = 0.0, held_out_um = 0.0, held_out_degrees = 0.0;
 };
 
 /// Of the values that errors are made of, all kinds together, from the data's own neighbourhood.

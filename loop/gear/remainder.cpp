@@ -72,6 +72,23 @@ class RemainderSearch {
     return std::move(found_);
   }
 
+  std::vector<std::string> notes_on_rough_traces() {
+    used_ = rows_looked_at(table_, patches_, which_);
+    values_ = gather_values(geometry_, table_, patches_, row_um_, which_, used_);
+    std::vector<std::string> notes;
+    for (const auto& [key, courses] : values_.courses) {
+      if (!is_of_trace(key.kind) || courses.places(false) < kFewestPlaces ||
+          courses.high == courses.low)
+        continue;
+      const RoughFlanks rough = rough_flanks(courses);
+      if (is_sure(rough.zone) && !is_rough_surface(rough.zone))
+        notes.push_back(words_of_zone(key, courses, rough) +
+                        "; a probe's error may be as much larger there, and what stands out there "
+                        "is judged by it");
+    }
+    return notes;
+  }
+
  private:
   /// How much louder than the usual one of its side each flank or trace is: to the moments of its
   /// tooth.
@@ -285,21 +302,28 @@ class RemainderSearch {
     return std::sqrt(sums.square_of_y() / std::max(1.0, sums.n));
   }
 
+  [[nodiscard]] std::string words_of_zone(const CourseKey& key, const Courses& courses,
+                                          const RoughFlanks& rough) const {
+    const double length = courses.high - courses.low;
+    const double low = place_mm(key.face, courses.low + rough.zone.from * length),
+                 high = place_mm(key.face, courses.low + rough.zone.to * length);
+    return words_of(rough.zone, flank_choice(geometry_, rough.side), key.face, std::min(low, high),
+                    std::max(low, high));
+  }
+
+  /// As it will be judged with all others: spots in a zone that is not told are told themselves.
+  [[nodiscard]] bool is_sure(const RoughZone& zone) const {
+    const auto most_looks = static_cast<double>(4 * values_.courses.size() + 4);
+    return zone.p_value <= kRemainderLevel / most_looks;
+  }
+
   /// Told as a finding.
   RoughFlanks rough_flanks_of(const CourseKey& key, const Courses& courses) {
     ++looks_;
     RoughFlanks surest = rough_flanks(courses);
     const RoughZone& zone = surest.zone;
-    // As it will be judged with all others: spots in a zone that is not told are told themselves.
-    const auto most_looks = static_cast<double>(4 * values_.courses.size() + 4);
-    if (zone.p_value > kRemainderLevel / most_looks) return {};
-    const double length = courses.high - courses.low;
-    const double low = place_mm(key.face, courses.low + zone.from * length),
-                 high = place_mm(key.face, courses.low + zone.to * length);
-    const FlankChoice flank = flank_choice(geometry_, surest.side);
-    add_text(zone.p_value,
-             words_of(zone, flank, key.face, std::min(low, high), std::max(low, high)),
-             zone.inside_um);
+    if (!is_sure(zone) || !is_rough_surface(zone)) return {};
+    add_text(zone.p_value, words_of_zone(key, courses, surest), zone.inside_um);
     return surest;
   }
 
@@ -563,6 +587,14 @@ std::vector<RemainderFinding> look_at_remainder(const FlankGeometry& geometry,
                                                 const std::vector<float>& row_um,
                                                 RemainderOf which) {
   return RemainderSearch(geometry, table, patches, row_um, which).run();
+}
+
+std::vector<std::string> notes_on_rough_traces(const FlankGeometry& geometry,
+                                               const Observations& table, const Patches& patches,
+                                               const std::vector<float>& row_um) {
+  if (!is_traced(table)) return {};
+  return RemainderSearch(geometry, table, patches, row_um, RemainderOf::kAll)
+      .notes_on_rough_traces();
 }
 
 }  // namespace trueflank::loop

@@ -50,4 +50,11 @@ enum class RemainderOf { kTraining, kAll };
                                                               const std::vector<float>& row_um,
                                                               RemainderOf which);
 
+/// What notes say of parts of all traces that scatter more than the rest, but no more than a probe
+/// may make of them.
+[[nodiscard]] std::vector<std::string> notes_on_rough_traces(const FlankGeometry& geometry,
+                                                             const Observations& table,
+                                                             const Patches& patches,
+                                                             const std::vector<float>& row_um);
+
 }  // namespace trueflank::loop

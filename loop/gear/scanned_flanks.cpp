@@ -21,15 +21,20 @@ double mean_over_median(double degrees) {
 
 Variance of_louder(double variance, const std::vector<double>& loud,
                    const std::vector<double>& values, const std::vector<double>& held_out) {
-  double sum = 0.0, count = 0.0, held_out_sum = 0.0, held_out_count = 0.0;
+  double sum = 0.0, count = 0.0, held_out_sum = 0.0, held_out_count = 0.0, by_chance = 0.0;
   for (std::size_t i = 0; i < loud.size(); ++i) {
     sum += values[i] * loud[i] * loud[i];
     count += values[i];
     held_out_sum += held_out[i] * loud[i] * loud[i];
     held_out_count += held_out[i];
+    const double square = held_out[i] * loud[i] * loud[i];
+    if (!(square > 0.0)) continue;
+    const double of_loudness = loud[i] == 1.0 ? 0.0 : 4.0 * kVarianceOfLogScatter / values[i];
+    by_chance += square * square * (2.0 / held_out[i] + of_loudness);
   }
   Variance result{.all = count > 0.0 ? variance * sum / count : variance,
-                  .held_out_count = held_out_count};
+                  .held_out_count = held_out_count,
+                  .of_held_out_sum = variance * variance * by_chance};
   result.held_out = held_out_count > 0.0 ? variance * held_out_sum / held_out_count : result.all;
   return result;
 }

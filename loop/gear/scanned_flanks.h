@@ -8,9 +8,11 @@
 
 namespace trueflank::loop {
 
-/// A variance, that of the held-out values and how many they are: these may be louder than the rest.
+/// A variance, that of the held-out values and how many they are: these may be louder than the
+/// rest. What chance makes of the sum of their squares, as a variance, where some are louder: each
+/// counts as its size does, and how loud it is is known from its own few values.
 struct Variance {
-  double all = 0.0, held_out = 0.0, held_out_count = 0.0;
+  double all = 0.0, held_out = 0.0, held_out_count = 0.0, of_held_out_sum = 0.0;
 };
 
 /// Mean of chi-square over its median, for so many degrees of freedom (Wilson and Hilferty).

@@ -34,6 +34,11 @@ RoughFlanks rough_flanks(const Courses& courses) {
   return surest;
 }
 
+bool is_rough_surface(const RoughZone& zone) {
+  constexpr double kRough = 2.5;
+  return zone.at_least >= kRough;
+}
+
 std::vector<MemberScatter> scatters_of(const Courses& courses) {
   std::vector<MemberScatter> scatters;
   for (const int side : {0, 1})

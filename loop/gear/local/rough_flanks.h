@@ -22,6 +22,10 @@ struct RoughFlanks {
 /// The surest one, its p-value corrected for the sides looked at.
 [[nodiscard]] RoughFlanks rough_flanks(const Courses& courses);
 
+/// True where it is the surface: a probe may see a part of all traces, most of all their ends, two
+/// or two and a half times worse.
+[[nodiscard]] bool is_rough_surface(const RoughZone& zone);
+
 /// "all traces over the face of left flanks are rougher between heights of 2 and 5 mm: ...".
 [[nodiscard]] std::string words_of(const RoughZone& zone, FlankChoice flank, bool face,
                                    double low_mm, double high_mm);
