@@ -11,7 +11,7 @@
 #include "trueflank/base/units.h"
 
 namespace trueflank::loop {
-namespace {
+namespace wave_spectra {
 
 using Complex = std::complex<double>;
 
@@ -249,15 +249,15 @@ class Spectrum {
   LikeliestOrder best_;
 };
 
-}  // namespace
+}  // namespace wave_spectra
 
 struct WaveSpectra::Kept {
   struct Answer {
-    SpectrumRows rows;
+    wave_spectra::SpectrumRows rows;
     LikeliestOrder order;
   };
-  LineSums line_sums;
-  std::array<SumsOfSquares, 2> squares;
+  wave_spectra::LineSums line_sums;
+  std::array<wave_spectra::SumsOfSquares, 2> squares;
   std::deque<Answer> answers;
 };
 
@@ -267,18 +267,20 @@ WaveSpectra::~WaveSpectra() = default;
 LikeliestOrder WaveSpectra::likeliest_order(const BenchTable& table, const Eigen::VectorXd& left) {
   constexpr std::size_t kMostKept = 4;
   if (!table.has_angle || table.turns < 0.9) return {};
-  SpectrumRows rows = rows_of_spectrum(table, left);
+  wave_spectra::SpectrumRows rows = wave_spectra::rows_of_spectrum(table, left);
   for (const Kept::Answer& known : kept_->answers)
     if (known.rows == rows) return known.order;
-  const LikeliestOrder found = Spectrum(rows, kept_->line_sums, kept_->squares).highest();
+  const LikeliestOrder found =
+      wave_spectra::Spectrum(rows, kept_->line_sums, kept_->squares).highest();
   if (kept_->answers.size() == kMostKept) kept_->answers.pop_front();
   kept_->answers.push_back({std::move(rows), found});
   return found;
 }
 
-std::vector<Complex> line_sums(const std::vector<double>& angle_rad, const std::vector<double>& size,
-                               double first, double step, int lines) {
-  return LineSums().of(angle_rad, size, {first, step, lines});
+std::vector<std::complex<double>> line_sums(const std::vector<double>& angle_rad,
+                                            const std::vector<double>& size, double first,
+                                            double step, int lines) {
+  return wave_spectra::LineSums().of(angle_rad, size, {first, step, lines});
 }
 
 }  // namespace trueflank::loop

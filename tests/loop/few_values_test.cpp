@@ -119,8 +119,10 @@ TEST(FewValues, SizesWithinTheirErrorsAreNoEffect) {
     loop::MeasuredData data;
     data.sizes = {sizes};
     const auto result = loop::close_loop(geometry_of(gear), "gear", data, {})->result;
-    EXPECT_NEAR(result.noise, 2.0, 1e-9) << seed;
-    quiet += result.verdict == loop::Verdict::kNoEffect ? 1 : 0;
+    EXPECT_GE(result.noise, 2.0 - 1e-9) << seed;  // (repeated sizes that scatter say it is more)
+    const bool is_quiet = result.verdict == loop::Verdict::kNoEffect;
+    quiet += is_quiet ? 1 : 0;
+    if (!is_quiet) std::printf("%u: %s\n", seed, list(result).c_str());
   }
   EXPECT_GE(quiet, 18);
 }

@@ -382,11 +382,17 @@ double chance_of_rotation_wave(const FlankGeometry& geometry, const Observations
   const auto [least, most] = orders_of(traces);
   if (wave.order < least || wave.order > most) return 0.0;
   for (auto& [key, trace] : traces.of) take_slow_part(trace);
-  SumsOfTraces sums{least, OrderSums(static_cast<std::size_t>(most - least + 1)), {}, {}};
-  for (const int side : {1, -1})
-    if (wave.side == 0 || wave.side == side)
-      sums.add(order_sums(traces, side, least, most, wave.backwards));
-  return std::min(1.0, p_of_order(sums, wave.order, geometry.teeth()) * looks_at(least, most));
+  // Of both flanks together, or as surely of one: the other's wave may stand beside it.
+  SumsOfTraces both{least, OrderSums(static_cast<std::size_t>(most - least + 1)), {}, {}};
+  double chance = 1.0;
+  for (const int side : {1, -1}) {
+    if (wave.side != 0 && wave.side != side) continue;
+    const SumsOfTraces own = order_sums(traces, side, least, most, wave.backwards);
+    if (!own.of.empty()) chance = std::min(chance, p_of_order(own, wave.order, geometry.teeth()));
+    both.add(own);
+  }
+  chance = std::min(chance, p_of_order(both, wave.order, geometry.teeth()));
+  return std::min(1.0, chance * looks_at(least, most));
 }
 
 }  // namespace trueflank::loop
