@@ -2,14 +2,40 @@
 #include "trueflank/loop/gear/part/structure_left.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/gear/part/single_teeth.h"
 
 namespace trueflank::loop {
 
+namespace {
+
+/// True of sizes alone that lie within their stated errors: four of them may agree with each other
+/// by chance far better than that, which says nothing.
+bool are_sizes_within_their_errors(const PartModel& model) {
+  constexpr double kLevel = 0.01;
+  double square = 0.0;
+  int count = 0;
+  const auto row_um = fit_of(model, model.effects)->residuals_um();
+  for (std::size_t i = 0; i < model.table->rows.size(); ++i) {
+    const Observation& row = model.table->rows[i];
+    if (row.kind != ObservationKind::kSize) return false;
+    if (model.patches.patch_of_row[i] < 0) continue;
+    const double sigma_um = model.table->sigma_um(row);
+    square += std::pow((*row_um)[i] / (std::isnan(sigma_um) ? kDefaultSizeSigma_um : sigma_um), 2);
+    ++count;
+  }
+  constexpr double kKnown = 1e9;  // degrees of freedom of an error that is stated
+  return count > 0 && f_tail(square / count, count, kKnown) > kLevel;
+}
+
+}  // namespace
+
 bool structure_is_left(const PartModel& model) {
   constexpr double kLeft = 0.01, kLeftOfNothing = 0.01, kSureThoughDenied = 0.0015;
   if (neighbours_share(model) || !model.remainder.empty() || model.denied_spot) return true;
+  if (are_sizes_within_their_errors(model)) return false;
   // What the hold-out denied must be surer than what it was not asked about.
   const double sure = model.vetoed ? kSureThoughDenied : kLeftOfNothing;
   if (model.effects.empty()) {
