@@ -24,6 +24,8 @@
 #include "trueflank/loop/gear/local/flank_waves.h"
 #include "trueflank/loop/gear/local/loud_places.h"
 #include "trueflank/loop/gear/local/odd_teeth.h"
+#include "trueflank/loop/gear/local/own_waves.h"
+#include "trueflank/loop/gear/local/plane_waves.h"
 #include "trueflank/loop/gear/local/remainder_courses.h"
 #include "trueflank/loop/gear/local/rotation_waves.h"
 #include "trueflank/loop/gear/local/rough_flanks.h"
@@ -44,13 +46,15 @@ class RemainderSearch {
 
   std::vector<RemainderFinding> run() {
     used_ = rows_looked_at(table_, patches_, which_);
-    // None of the four asks the others.
+    // None of these asks the others.
     auto spots = begun_beside([this] {
       return which_ == RemainderOf::kAll ? spots_of_scans(geometry_, table_, patches_, row_um_)
                                          : std::vector<FlankSpot>();
     });
     auto spectrum = begun_beside([this] { return spectrum_across(); });
     auto rotation = begun_beside([this] { return wave_over_rotation(); });
+    auto plane =
+        begun_beside([this] { return likeliest_plane_wave(geometry_, table_, row_um_, used_); });
     values_ = gather_values(geometry_, table_, patches_, row_um_, which_, used_);
     tell_loud_traces();
     tell_rougher_teeth();
@@ -63,6 +67,7 @@ class RemainderSearch {
     for (RemainderFinding& finding : found_)
       finding.p_value = std::min(1.0, looks * finding.p_value);
     look_over_rotation(rotation.get());
+    look_over_the_plane(plane.get());
     look_around();
     if (which_ == RemainderOf::kAll) look_at_single_teeth();
     std::erase_if(found_, [](const RemainderFinding& f) { return f.p_value > kRemainderLevel; });
@@ -491,21 +496,8 @@ class RemainderSearch {
                       alike(std::abs(waves[0].waves_face), std::abs(waves[1].waves_face)) &&
                       alike(waves[0].amplitude_um, waves[1].amplitude_um);
     for (const OwnWaves& wave : waves) {
-      const bool rises = wave.waves_profile * wave.waves_face < 0.0;
-      const bool mirrored = both && rises != (waves[1].waves_profile * waves[1].waves_face < 0.0);
-      std::string text = printed(
-          "waves across the flanks, %.3g mm of roll length each over the profile and %.3g mm over "
-          "the face, ",
-          involute_mm() / wave.waves_profile,
-          geometry_.face_width_mm() / std::abs(wave.waves_face));
-      const bool left = flank_choice(geometry_, wave.side) == FlankChoice::kLeft;
-      text += rises ? "rising towards the tip" : "falling towards the tip";
-      if (mirrored)
-        text += printed(" on %s flanks and %s on %s ones", left ? "left" : "right",
-                        rises ? "falling" : "rising", left ? "right" : "left");
-      text += printed(", in a phase of its own on every flank, %.3g um", wave.amplitude_um);
-      if (!both) text += left ? ", left flanks" : ", right flanks";
-      add_text(wave.p_value, std::move(text), wave.amplitude_um);
+      add_text(wave.p_value, flank_waves::words_of(geometry_, waves, wave, both),
+               wave.amplitude_um);
       found_.back().own_waves = both ? waves : std::vector{wave};
       if (both) break;
     }
@@ -543,6 +535,14 @@ class RemainderSearch {
                                   printed(", %.3g um", wave.amplitude_um),
                           .amount_um = wave.amplitude_um,
                           .effect = Effect{&family, flank, {double(wave.order)}}});
+  }
+
+  void look_over_the_plane(const std::optional<PlaneWave>& wave) {
+    constexpr double kLevel = 1e-6;  // (so much surer that it is no look of the others)
+    if (!wave || wave->p_value > kLevel) return;
+    add_form("unnamed_plane_wave", FlankChoice::kBoth,
+             {double(wave->along), double(wave->by), wave->wavelength_mm}, wave->p_value,
+             wave->amplitude_um, false, wave->square);
   }
 
   /// A dent in place of a sector, where it takes out more.

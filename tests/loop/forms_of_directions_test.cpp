@@ -127,5 +127,25 @@ TEST(WavesOfOneTrace, AreAFormOfItsTooth) {
   }
 }
 
+// The screw of an axis: every place of a coordinate is shifted alike.
+TEST(PlaneWave, OfAScrewIsOneForm) {
+  const MadeGear gear = spur(33);
+  for (const bool along_y : {false, true})
+    for (const double wavelength_mm : {4.3, 11.0}) {
+      const Process screw{.move_um = [=](const MadeGear&, const FlankSpot&, const Vec3& p) -> Vec3 {
+        const double um = 14.0 * std::cos(2.0 * M_PI * p[along_y ? 1 : 0] / wavelength_mm - 0.7);
+        return {along_y ? 0.0 : um, along_y ? um : 0.0, 0.0};
+      }};
+      const auto result = close(gear, scan_of(gear, {screw}, scanned(9000, 3.0, 35)), true);
+      const std::string axis = along_y ? "y" : "x";
+      EXPECT_TRUE(tells(result, "places are shifted along " + axis + " in waves over " + axis))
+          << wavelength_mm << ": " << list(result);
+      ASSERT_EQ(result.effects.size(), 1U) << list(result);
+      EXPECT_NEAR(parameter(result.effects[0], "amplitude_um").value, 14.0, 0.5) << list(result);
+      EXPECT_NEAR(result.effects[0].terms.front().shape[2], wavelength_mm, 0.01 * wavelength_mm);
+      EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
+    }
+}
+
 }  // namespace
 }  // namespace trueflank::test

@@ -543,7 +543,7 @@ TEST(SignWords, AreSaidOfEveryFormOfOneCoefficient) {
         "unnamed_waves_dying", "unnamed_waves_growing", "unnamed_walking_waves",
         "unnamed_waves_changing", "unnamed_bow", "unnamed_axis_kink", "unnamed_field",
         "unnamed_facing", "unnamed_moved_sector", "unnamed_drift_aside", "unnamed_broken_wave",
-        "unnamed_stairs", "unnamed_wave_of_some", "unnamed_pattern",
+        "unnamed_stairs", "unnamed_wave_of_some", "unnamed_pattern", "unnamed_plane_wave",
         // (play is said by its axis; the words of those of some teeth are those of all)
         "unnamed_wobble", "unnamed_reversal", "unnamed_kink_of_teeth", "unnamed_bend_of_teeth",
         "unnamed_waviness_of_teeth", "unnamed_dish_of_teeth"};

@@ -70,6 +70,7 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_bow(),
         unnamed_axis_kink(),
         unnamed_field(),
+        unnamed_plane_wave(),
         unnamed_facing(),
         unnamed_facing_one_side(),
         unnamed_wobble(),

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/base/threads.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/order_statistics.h"
@@ -191,6 +192,25 @@ class OwnWaveSearch {
 std::vector<OwnWaves> own_waves(const std::vector<FlankSums>& flanks,
                                 const std::vector<Value>& values, const WavesAsked& asked) {
   return OwnWaveSearch(flanks, values, asked).run();
+}
+
+std::string words_of(const FlankGeometry& geometry, const std::vector<OwnWaves>& waves,
+                     const OwnWaves& wave, bool both) {
+  const double involute_mm = std::abs(geometry.tip_form_roll_mm() - geometry.root_form_roll_mm());
+  const bool rises = wave.waves_profile * wave.waves_face < 0.0;
+  const bool mirrored = both && rises != (waves[1].waves_profile * waves[1].waves_face < 0.0);
+  std::string text = printed(
+      "waves across the flanks, %.3g mm of roll length each over the profile and %.3g mm over "
+      "the face, ",
+      involute_mm / wave.waves_profile, geometry.face_width_mm() / std::abs(wave.waves_face));
+  const bool left = (wave.side > 0) == (geometry.sense() > 0.0);
+  text += rises ? "rising towards the tip" : "falling towards the tip";
+  if (mirrored)
+    text += printed(" on %s flanks and %s on %s ones", left ? "left" : "right",
+                    rises ? "falling" : "rising", left ? "right" : "left");
+  text += printed(", in a phase of its own on every flank, %.3g um", wave.amplitude_um);
+  if (!both) text += left ? ", left flanks" : ", right flanks";
+  return text;
 }
 
 }  // namespace trueflank::loop::flank_waves

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "trueflank/loop/gear/local/flank_waves.h"
@@ -18,5 +19,10 @@ struct WavesAsked {
 [[nodiscard]] std::vector<OwnWaves> own_waves(const std::vector<FlankSums>& flanks,
                                               const std::vector<Value>& values,
                                               const WavesAsked& asked);
+
+/// One of these in words; `both`: the two flanks have the same, but for the direction.
+[[nodiscard]] std::string words_of(const FlankGeometry& geometry,
+                                   const std::vector<OwnWaves>& waves, const OwnWaves& wave,
+                                   bool both);
 
 }  // namespace trueflank::loop::flank_waves

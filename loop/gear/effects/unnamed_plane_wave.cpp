@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The error of an axis of a machine that comes back with every turn of its screw or belt: all that
+// stands at one coordinate is shifted alike.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "trueflank/base/number_text.h"
+#include "trueflank/base/units.h"
+#include "trueflank/loop/gear/effects/along_flank.h"
+#include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/effects/registry.h"
+
+namespace trueflank::loop::gear_effects {
+namespace {
+
+/// Shape values: 0 along x, 1 along y; 0 by x, 1 by y; and the wavelength.
+enum PlaneWave : std::size_t { kShifted, kByCoordinate, kWavelength };
+
+std::string axis_of(double value) { return value != 0.0 ? "y" : "x"; }
+
+}  // namespace
+
+EffectFamily unnamed_plane_wave() {
+  EffectFamily f = described("unnamed_plane_wave", {"shifted_along", "by", "wavelength_mm"});
+  f.columns = [](const EffectShape&) { return 2; };
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = c[1] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    const PlanePoint point = point_of(p);
+    const double angle =
+        kTwoPi * (shape[kByCoordinate] != 0.0 ? point.y : point.x) / shape[kWavelength];
+    const double normal =
+        shape[kShifted] != 0.0 ? normal_part(g, p, 0.0, 1.0) : normal_part(g, p, 1.0, 0.0);
+    c[0] = normal * std::cos(angle);
+    c[1] = normal * std::sin(angle);
+  };
+  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    // Over the gear the phase turns by these shares of a wave.
+    std::vector<EffectShape> shapes;
+    for (const double waves : {0.2, 0.07, 0.02, 0.007, 0.002})
+      for (const double sign : {-1.0, 1.0}) {
+        const double frequency =
+            1.0 / shape[kWavelength] + sign * waves / (2.0 * g.reference_radius_mm());
+        if (!(frequency > 0.0)) continue;
+        shapes.push_back(shape);
+        shapes.back()[kWavelength] = 1.0 / frequency;
+      }
+    return shapes;
+  };
+  f.term_keys = {{"shifted_along", TermKey::Kind::kWord, {"x", "y"}},
+                 {"by", TermKey::Kind::kWord, {"x", "y"}},
+                 number("wavelength_mm")};
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const bool own = shape[kShifted] == shape[kByCoordinate];
+    return "places are shifted along " + axis_of(shape[kShifted]) + " in waves over " +
+           axis_of(shape[kByCoordinate]) + printed(", %.4g mm long", shape[kWavelength]) +
+           (own ? ", as from the screw, the belt, the scale or the pixels of that axis"
+                : ", as from a guide of the other axis that is not straight");
+  };
+  return f;
+}
+
+}  // namespace trueflank::loop::gear_effects

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/local/plane_waves.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <utility>
+
+#include "trueflank/base/threads.h"
+#include "trueflank/base/units.h"
+#include "trueflank/loop/discovery/order_statistics.h"
+#include "trueflank/loop/gear/effect.h"
+#include "trueflank/loop/gear/table/thinned_rows.h"
+
+namespace trueflank::loop {
+namespace {
+
+/// Of a scan's many values so many tell as much as is asked.
+constexpr std::size_t kRowsAsked = 3000, kFewestRowsAsked = 400;
+/// Waves over the width of the gear: from ... in steps of ... to.
+constexpr double kFewestPlaneWaves = 0.5, kPlaneStep = 0.25, kMostPlaneWaves = 30.0;
+
+/// Values at places, with the share of a shift along x and y that they see.
+struct PlaneValues {
+  std::vector<double> um;
+  std::array<std::vector<double>, 2> at_mm, normal;
+  std::size_t rows = 0;  ///< of which these are some
+};
+
+PlaneValues gathered_in_plane(const FlankGeometry& geometry, const Observations& table,
+                              const std::vector<float>& row_um, const std::vector<bool>& used) {
+  PlaneValues values;
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    values.rows += used[i] && table.rows[i].kind == ObservationKind::kScanFlank ? 1U : 0U;
+  const ThinnedRows some(values.rows, kRowsAsked);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    if (!used[i] || table.rows[i].kind != ObservationKind::kScanFlank || !some.has(i)) continue;
+    const Place& place = table.place(table.rows[i]);
+    values.um.push_back(row_um[i]);
+    sum += row_um[i];
+    values.at_mm[0].push_back(place.radius_mm * place.polar_direction[0]);
+    values.at_mm[1].push_back(place.radius_mm * place.polar_direction[1]);
+    values.normal[0].push_back(normal_part(geometry, place, 1.0, 0.0));
+    values.normal[1].push_back(normal_part(geometry, place, 0.0, 1.0));
+  }
+  for (double& um : values.um) um -= sum / static_cast<double>(values.um.size());
+  return values;
+}
+
+struct PlaneGain {
+  double square = 0.0, amplitude_um = 0.0;
+};
+
+/// What a wave takes out of the values.
+PlaneGain gain_of(const std::complex<double>& product, const std::complex<double>& square_of_wave,
+                  double squares_of_normal) {
+  const double cc = 0.5 * (squares_of_normal + square_of_wave.real()),
+               ss = 0.5 * (squares_of_normal - square_of_wave.real()),
+               cs = 0.5 * square_of_wave.imag(), determinant = cc * ss - cs * cs;
+  constexpr double kToldApart = 1e-3;
+  if (!(determinant > kToldApart * squares_of_normal * squares_of_normal)) return {};
+  const double cosine = (ss * product.real() - cs * product.imag()) / determinant,
+               sine = (cc * product.imag() - cs * product.real()) / determinant;
+  return {cosine * product.real() + sine * product.imag(), std::hypot(cosine, sine)};
+}
+
+/// Gains of waves over a coordinate, of either shift, from a number of waves over the width on.
+std::array<std::vector<PlaneGain>, 2> plane_gains(const PlaneValues& values, int by,
+                                                  double width_mm, double first, double step,
+                                                  std::size_t count) {
+  std::array<std::vector<std::complex<double>>, 2> products, squares;
+  std::array<double, 2> normals{};
+  for (int along : {0, 1}) {
+    products[static_cast<std::size_t>(along)].resize(count);
+    squares[static_cast<std::size_t>(along)].resize(count);
+  }
+  for (std::size_t i = 0; i < values.um.size(); ++i) {
+    const double angle = kTwoPi * values.at_mm[static_cast<std::size_t>(by)][i] / width_mm;
+    const std::complex<double> turn = std::polar(1.0, step * angle);
+    std::complex<double> wave = std::polar(1.0, first * angle);
+    const double nx = values.normal[0][i], ny = values.normal[1][i], um = values.um[i];
+    normals[0] += nx * nx;
+    normals[1] += ny * ny;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double real = wave.real(), imaginary = wave.imag();
+      const std::complex<double> twice(real * real - imaginary * imaginary, 2.0 * real * imaginary);
+      products[0][k] += nx * um * wave;
+      products[1][k] += ny * um * wave;
+      squares[0][k] += nx * nx * twice;
+      squares[1][k] += ny * ny * twice;
+      wave = {real * turn.real() - imaginary * turn.imag(),
+              real * turn.imag() + imaginary * turn.real()};
+    }
+  }
+  std::array<std::vector<PlaneGain>, 2> found;
+  for (const std::size_t along : {0U, 1U})
+    for (std::size_t k = 0; k < count; ++k)
+      found[along].push_back(gain_of(products[along][k], squares[along][k], normals[along]));
+  return found;
+}
+
+}  // namespace
+
+std::optional<PlaneWave> likeliest_plane_wave(const FlankGeometry& geometry,
+                                              const Observations& table,
+                                              const std::vector<float>& row_um,
+                                              const std::vector<bool>& used) {
+  constexpr double kClearly = 2.5;
+  constexpr std::size_t kBeside = 4, kFiner = 9;
+  const PlaneValues values = gathered_in_plane(geometry, table, row_um, used);
+  if (values.um.size() < kFewestRowsAsked) return {};
+  const double width_mm = 2.0 * geometry.reference_radius_mm();
+  const auto count =
+      static_cast<std::size_t>((kMostPlaneWaves - kFewestPlaneWaves) / kPlaneStep) + 1;
+  std::array<std::array<std::vector<PlaneGain>, 2>, 2> of;  // by coordinate, then by shift
+  for_each_piece(2, [&](std::size_t by) {
+    of[by] =
+        plane_gains(values, static_cast<int>(by), width_mm, kFewestPlaneWaves, kPlaneStep, count);
+  });
+  std::size_t best_by = 0, best_along = 0, best = 0;
+  const auto at = [&](std::size_t by, std::size_t along, std::size_t k) -> const PlaneGain& {
+    return of[by][along][k];
+  };
+  for (const std::size_t by : {0U, 1U})
+    for (const std::size_t along : {0U, 1U})
+      for (std::size_t k = 0; k < count; ++k)
+        if (at(by, along, k).square > at(best_by, best_along, best).square) {
+          best_by = by;
+          best_along = along;
+          best = k;
+        }
+  const double most = at(best_by, best_along, best).square;
+  if (!(most > 0.0)) return {};
+  std::vector<double> others;
+  for (const std::size_t by : {0U, 1U})
+    for (const std::size_t along : {0U, 1U})
+      for (std::size_t k = 0; k < count; ++k) {
+        const bool own = by == best_by && along == best_along;
+        if (own) others.push_back(at(by, along, k).square);
+        if (own && k + kBeside >= best && k <= best + kBeside) continue;
+        if (kClearly * at(by, along, k).square > most) return {};
+      }
+  const double usual = median(std::move(others)) / std::log(2.0);  // their mean, of chance
+  if (!(usual > 0.0)) return {};
+  PlaneWave found{.along = static_cast<int>(best_along), .by = static_cast<int>(best_by)};
+  found.p_value = std::min(1.0, 4.0 * static_cast<double>(count) * std::exp(-most / usual));
+  // Between the steps.
+  const double first = kFewestPlaneWaves + kPlaneStep * (static_cast<double>(best) - 1.0),
+               step = 2.0 * kPlaneStep / (kFiner - 1);
+  const auto finer =
+      plane_gains(values, found.by, width_mm, std::max(first, step), step, kFiner)[best_along];
+  const auto finest =
+      std::max_element(finer.begin(), finer.end(),
+                       [](const PlaneGain& a, const PlaneGain& b) { return a.square < b.square; });
+  found.wavelength_mm =
+      width_mm / (std::max(first, step) + step * static_cast<double>(finest - finer.begin()));
+  found.amplitude_um = finest->amplitude_um;
+  found.square =
+      finest->square * static_cast<double>(values.rows) / static_cast<double>(values.um.size());
+  return found;
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "trueflank/loop/gear/observations.h"
+
+// Waves over a coordinate of the plane, by which everything that stands there is shifted.
+namespace trueflank::loop {
+
+/// A shift along x (0) or y (1) in waves over x (0) or y (1).
+struct PlaneWave {
+  int along = 0, by = 0;
+  double wavelength_mm = 0.0;
+  double p_value = 1.0;  ///< corrected for both shifts, both coordinates and all wavelengths
+  double square = 0.0;   ///< squares that it takes out of all rows
+  double amplitude_um = 0.0;
+};
+
+/// The likeliest wave in scanned flanks, from twice the gear to a fifteenth of its radius, judged
+/// against waves of other lengths of the same shift: what hangs together otherwise is none. None
+/// where another of another length is nearly as strong. `row_um`: residuals of the table's rows;
+/// `used`: which rows are looked at.
+[[nodiscard]] std::optional<PlaneWave> likeliest_plane_wave(const FlankGeometry& geometry,
+                                                            const Observations& table,
+                                                            const std::vector<float>& row_um,
+                                                            const std::vector<bool>& used);
+
+}  // namespace trueflank::loop
