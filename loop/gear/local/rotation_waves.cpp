@@ -307,8 +307,11 @@ bool stands_alone(const SumsOfTraces& sums, int order, int teeth) {
   return true;
 }
 
-/// Orders, either flank or both, and ways of counting.
-double looks_at(int least, int most) { return 6.0 * (most - least + 1); }
+/// Orders, either flank or both, and ways of counting; asked of what is left several times.
+double looks_at(int least, int most) {
+  constexpr double kFlanksAndWays = 6.0, kTimes = 5.0;
+  return kTimes * kFlanksAndWays * (most - least + 1);
+}
 
 }  // namespace
 
