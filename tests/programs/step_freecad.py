@@ -1,6 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""FreeCAD opens every sample: one valid closed solid, volume within 1e-6 of the exact curves'."""
+"""FreeCAD opens samples: one valid closed solid, volume within 1e-6 of the exact curves'.
+
+In the campaign every sample. Sample gears are read, judged and measured by step_opencascade, too (StepRead.EverySampleGear...),
+with the very libraries that FreeCAD links. In the gate FreeCAD opens of them what is small enough that it looks for
+self-intersections, which that test does not, and one larger gear and ring; and all other parts."""
+import os
 import sys
 
 sys.dont_write_bytecode = True
@@ -10,6 +15,9 @@ import FreeCAD  # noqa: E402,F401  (must come before Part)
 import Part  # noqa: E402
 
 from step_samples import write_samples  # noqa: E402
+
+SMALL_FACES = 80  # self-intersections are looked for in a second, not a minute
+LARGER_GEARS = {"planet of 39 teeth", "ring of 81 teeth"}
 
 
 def complaints(path, volume):
@@ -21,8 +29,8 @@ def complaints(path, volume):
     if not shape.isClosed():
         found.append("not closed")
     try:
-        # every test of isValid(); with the search for self-intersections where that takes a second, not a minute
-        shape.check(len(shape.Faces) < 80)
+        # every test of isValid()
+        shape.check(len(shape.Faces) < SMALL_FACES)
     except ValueError as error:
         found.append(f"check: {error}")
     relative = shape.Volume / volume - 1.0
@@ -32,12 +40,22 @@ def complaints(path, volume):
     return found
 
 
+def opened(samples):
+    if "TRUEFLANK_CAMPAIGN" in os.environ:
+        return samples
+    gears = [path.name for path, _ in samples].index("planet.step")  # before it
+    return [sample for at, sample in enumerate(samples) if at >= gears or sample[0].stem in LARGER_GEARS
+            or sample[0].read_text(encoding="utf-8").count("=ADVANCED_FACE(") < SMALL_FACES]
+
+
 def main():
-    failed = False
-    for path, volume in write_samples():
+    failed, samples = False, opened(write_samples())
+    for path, volume in samples:
         for complaint in complaints(path, volume):
             failed = True
             print(f"{path.name}: {complaint}")
+    if len(samples) < 14:
+        sys.exit(f"only {len(samples)} samples were opened")
     return 1 if failed else 0
 
 
