@@ -2,7 +2,7 @@
 """What a workshop does to gears and a measuring room to data, other than in hidden.py and strange.py: warming up,
 arbors, clamps, hobs, chatter that sets in, worn tools, knocks, quenching, supports, layers, machines and probes that
 drift, noise that is not the same everywhere. Gear, noise and files are those of made.py.
-Usage: odd_parts.py PROGRAM DIRECTORY [--seed N] [--each N] [--only TEXT] [--list] [--least SHARE]
+Usage: odd_parts.py PROGRAM DIRECTORY [--seed N] [--each N] [--only TEXT] [--list] [--least SHARE] [--every N]
 An answer is right where:
   nothing   no_effect
   known     each wanted name (or one the program says it cannot be told from) and no other; intervals are counted
@@ -417,8 +417,8 @@ class Case:
 
 
 def main():
-    o = trial.words()
-    cases = [Case(i, o.seed, kind, ways) for kind, ways in KINDS if o.only in kind.__name__ for i in range(o.each)]
+    o = trial.words(every=(1, "only every n-th kind"))
+    cases = [Case(i, o.seed, kind, ways) for kind, ways in KINDS[::o.every] if o.only in kind.__name__ for i in range(o.each)]
     trial.campaign(cases, o, keys=lambda c: (c.kind.__name__, "all " + c.hidden.how), worth_a_line=lambda c: c.placed() is False,
                    counts=lambda c: (int(c.placed() is True), int(c.placed() is not None)),
                    columns="| hidden | right | of | place told | of |", after=lambda done: trial.tell_intervals(done, lambda case: case.intervals()))
