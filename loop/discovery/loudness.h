@@ -39,4 +39,16 @@ struct Loudness {
 [[nodiscard]] Loudness loudness_of(const std::vector<double>& scatters,
                                    const std::vector<double>& values);
 
+/// loudness_of where members are few: fewer than five are asked beside as many of the quieter half
+/// as are missing, so that one that stands far above these is told, and none is quieter.
+[[nodiscard]] Loudness loudness_of_few(const std::vector<double>& scatters,
+                                       const std::vector<double>& values);
+
+/// By how much louder than usual the places of courses are that stand beside each other (one a
+/// column of a set, zero mean), the same for all of them: 1 or more, a factor a row, and 1
+/// everywhere where they differ hardly more than chance makes them. From second differences, each
+/// course in its own scatter: `scatters`, one a column of the set (0: not known).
+[[nodiscard]] Eigen::VectorXd loudness_of_places(const std::vector<Eigen::MatrixXd>& sets,
+                                                 const std::vector<std::vector<double>>& scatters);
+
 }  // namespace trueflank::loop

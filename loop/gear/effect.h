@@ -29,6 +29,9 @@ enum class Correctable { kGeometry, kNoCause };
 /// Shape values of an effect: order, height, tooth, ...
 using EffectShape = std::vector<double>;
 
+/// What a value more has to take off the chi-square of what is left, so that it is worth telling.
+inline constexpr double kCostOfValue = 8.0;
+
 struct Effect;
 
 /// A form to be put into words.

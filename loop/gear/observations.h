@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -69,6 +70,11 @@ struct Observations {
   [[nodiscard]] const Place& place(const Observation& row) const { return places[row.first_place]; }
   [[nodiscard]] double sigma_um(const Observation& row) const {
     return row.first_place < sigmas_um.size() ? sigmas_um[row.first_place] : kNaN;
+  }
+  /// The same of a size; the usual one where it was not given.
+  [[nodiscard]] double size_sigma_um(const Observation& row) const {
+    const double given = sigma_um(row);
+    return std::isnan(given) ? kDefaultSizeSigma_um : given;
   }
 };
 

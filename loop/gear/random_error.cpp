@@ -10,7 +10,6 @@
 #include "trueflank/loop/discovery/loudness.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/discovery/own_relief.h"
-#include "trueflank/loop/discovery/window_roughness.h"
 #include "trueflank/loop/gear/local/reading_steps.h"
 #include "trueflank/loop/gear/scanned_flanks.h"
 
@@ -386,8 +385,7 @@ RandomError random_error(const FlankGeometry& geometry, const Observations& tabl
   if (all.count == 0.0)
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
       if (table.rows[i].kind != ObservationKind::kSize || patches.patch_of_row[i] < 0) continue;
-      const double sigma_um = table.sigma_um(table.rows[i]);
-      all.random_square += std::pow(std::isnan(sigma_um) ? kDefaultSizeSigma_um : sigma_um, 2);
+      all.random_square += std::pow(table.size_sigma_um(table.rows[i]), 2);
       all.count += 1.0;
     }
   RandomError result{.um = all.count > 0.0 ? std::sqrt(all.random_square / all.count) : 0.0};

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "tests/loop/words_of_forms.h"
 #include "trueflank/loop/gear/local/loud_places.h"
@@ -12,6 +14,7 @@ namespace trueflank::test {
 namespace {
 
 using loop::FlankChoice;
+using testing::AllOf;
 using testing::HasSubstr;
 
 TEST(SizesInWords, AreBoundedByTheFlankAndTheGear) {
@@ -46,11 +49,53 @@ TEST(SizesInWords, AreSaidOfWavesAlongOneDirectionByThatAlone) {
   const auto g = geometry_of(spur(24));
   EXPECT_THAT(said_of(g, effect_of("unnamed_marks", {0.016, -4.0, 0.0})),
               testing::StartsWith("4.0 waves over the face, 2.5 mm long, the same on every tooth"));
+  EXPECT_THAT(said_of(g, effect_of("unnamed_marks", {1.5, -4.0, 3.0})),
+              AllOf(HasSubstr("1.5 over the profile"), HasSubstr("4.0 over the face, 2.5 mm each"),
+                    HasSubstr("rising towards the tip"),
+                    HasSubstr("3 periods a turn, towards the upper end")));
+}
+
+TEST(SizesInWords, SayWhatEveryToothOfAPatternHas) {
+  const auto g = geometry_of(spur(24));
+  EXPECT_THAT(said_of(g, effect_of("unnamed_pattern", {4, 22, 1, 0.5, -1.5, 0.5, 0.5}), {2.0}),
+              AllOf(HasSubstr("the teeth stand aside in a pattern that repeats every 4 teeth, "
+                              "from tooth 22 on, most at tooth 23 and every 4 teeth after it: 3 um "
+                              "clockwise; its teeth, one after the other: 1, -3, 1 and 1 um, + is "
+                              "counter-clockwise"),
+                    HasSubstr("as from a cutter of so many teeth")));
+  EXPECT_THAT(said_of(g, effect_of("unnamed_pattern", {3, 24, 0, -1, 2, -1}), {2.0}),
+              HasSubstr("most at tooth 1 and every 3 teeth after it: 4 um out"));
+  double column = 7.0;
+  const auto pattern = effect_of("unnamed_pattern", {4, 22, 1, 0.5, -1.5, 0.25, 0.75});
+  const double middle = 0.5 * (g.root_form_roll_mm() + g.tip_form_roll_mm());
+  for (const auto& [tooth, value] :
+       {std::pair{22, 0.5}, {23, -1.5}, {24, 0.25}, {1, 0.75}, {2, 0.5}})
+    for (const int side : {1, -1}) {
+      pattern.evaluate(g, g.on_flank(tooth, side, middle, 5.0), &column);
+      EXPECT_EQ(column, side * value) << tooth;
+    }
+}
+
+TEST(SizesInWords, SayHowHighEveryStepIs) {
+  const auto g = geometry_of(spur(24));
   EXPECT_THAT(
-      said_of(g, effect_of("unnamed_marks", {1.5, -4.0, 3.0})),
-      testing::AllOf(HasSubstr("1.5 over the profile"), HasSubstr("4.0 over the face, 2.5 mm each"),
-                     HasSubstr("rising towards the tip"),
-                     HasSubstr("3 periods a turn, towards the upper end")));
+      said_of(g, effect_of("unnamed_stairs", {20, 3, 12, 0}), {3.0, -1.5}),
+      HasSubstr("the height goes in steps: against teeth 20 to 2, teeth 3 to 11 stand out by 3 "
+                "um and teeth 12 to 19 lie back by 1.5 um"));
+  EXPECT_THAT(said_of(g, effect_of("unnamed_stairs", {1, 9, 17, 1}), {-3.0, 1.0}),
+              HasSubstr("teeth 9 to 16 stand clockwise by 3 um and teeth 17 to 24 stand "
+                        "counter-clockwise by 1 um"));
+  EXPECT_THAT(said_of(g, effect_of("unnamed_stairs", {1, 9, 17, 1})),
+              HasSubstr("teeth 9 to 16 and teeth 17 to 24 differ from teeth 1 to 8"));
+  double columns[2] = {7.0, 7.0};
+  const auto stairs = effect_of("unnamed_stairs", {20, 3, 12, 0});
+  const double middle = 0.5 * (g.root_form_roll_mm() + g.tip_form_roll_mm());
+  for (const auto& [tooth, first, second] :
+       {std::tuple{19, 0.0, 1.0}, {20, 0.0, 0.0}, {2, 0.0, 0.0}, {3, 1.0, 0.0}, {12, 0.0, 1.0}}) {
+    stairs.evaluate(g, g.on_flank(tooth, 1, middle, 5.0), columns);
+    EXPECT_EQ(columns[0], first) << tooth;
+    EXPECT_EQ(columns[1], second) << tooth;
+  }
 }
 
 TEST(LinesOfWavesThatRunBackwards, AreSaidOnlyWhereAllDo) {

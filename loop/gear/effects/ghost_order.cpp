@@ -96,10 +96,9 @@ EffectFamily ghost_order() {
   f.sentence = [](const FlankGeometry& g, const FoundEffect& found) {
     const double order = figure(found, "order");
     const bool once_a_tooth = std::fmod(order, g.teeth()) == 0.0;
-    const std::string on = on_which_flanks(found);
-    return "A wave of " + um(figure(found, "amplitude_um")) + " lies over" +
-           (on.empty() ? " the flanks" : on.substr(std::string(" on").size())) + ", " +
-           times_per_turn(order) + ": " +
+    return "A wave of " + um(figure(found, "amplitude_um")) + " lies over the " +
+           (found.flank == "both" ? "" : found.flank + " ") + "flanks, " + times_per_turn(order) +
+           ": " +
            (once_a_tooth ? "it is the same on every tooth, so it may be the tool's form or runout "
                            "as well as the machine's"
                          : "the gear whines at that order");

@@ -573,9 +573,9 @@ class PatchMaker {
       const Observation& observation = table_.rows[row];
       if (!is_single(observation.kind)) continue;
       Patches::Patch& patch = result_.patches[result_.patch_of_row[row]];
-      double sigma = table_.sigma_um(observation);
-      if (observation.kind == ObservationKind::kSize && std::isnan(sigma))
-        sigma = kDefaultSizeSigma_um;
+      const double sigma = observation.kind == ObservationKind::kSize
+                               ? table_.size_sigma_um(observation)
+                               : table_.sigma_um(observation);
       if (!std::isnan(sigma)) patch.weight = 1.0 / (sigma * sigma);
     }
   }

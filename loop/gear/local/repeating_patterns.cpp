@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "trueflank/loop/gear/effects/repeating_pattern.h"
@@ -30,13 +31,16 @@ std::vector<double> means_of(const ValuesOfTeeth& values, int every, int first) 
   return sum;
 }
 
-/// Means as shape values: about their mean over the teeth, of a mean square of 1.
-EffectShape as_shape(int teeth, int every, int first, bool opposite, std::vector<double> means) {
+/// Means as shape values: about their mean over the teeth, of a mean square of 1; none where all
+/// are alike.
+std::optional<EffectShape> as_shape(int teeth, int every, int first, bool opposite,
+                                    std::vector<double> means) {
   double mean = 0.0, square = 0.0;
   for (int since = 0; since < teeth; ++since)
     mean += means[static_cast<std::size_t>(since % every)] / teeth;
   for (int since = 0; since < teeth; ++since)
     square += std::pow(means[static_cast<std::size_t>(since % every)] - mean, 2) / teeth;
+  if (!(square > 0.0)) return std::nullopt;
   EffectShape shape{double(every), double(first), opposite ? 1.0 : 0.0};
   for (const double value : means) shape.push_back((value - mean) / std::sqrt(square));
   return shape;
@@ -62,7 +66,6 @@ ValuesOfTeeth::ValuesOfTeeth(const FlankGeometry& geometry, const Observations& 
 
 std::vector<EffectShape> repeating_patterns(const ValuesOfTeeth& values, bool opposite,
                                             std::size_t most) {
-  constexpr double kValue = 8.0;  // as in cost_of
   constexpr int kFewestBeside = 4;
   const auto teeth = static_cast<int>(values.sum.size());
   double all = 0.0, sum = 0.0, number = 0.0;
@@ -89,8 +92,9 @@ std::vector<EffectShape> repeating_patterns(const ValuesOfTeeth& values, bool op
       }
       const double left = std::max(all - of_mean - explained, 1e-9 * all);
       if (!(explained > 0.0) || !(all - of_mean > 0.0)) continue;
-      found.emplace_back(measured * std::log(left) + kValue * (every - 1),
-                         as_shape(teeth, every, first, opposite, std::move(means)));
+      if (auto shape = as_shape(teeth, every, first, opposite, std::move(means)))
+        found.emplace_back(measured * std::log(left) + kCostOfValue * (every - 1),
+                           std::move(*shape));
     }
   std::sort(found.begin(), found.end(),
             [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -109,7 +113,8 @@ EffectShape with_means_of(const EffectShape& shape, const ValuesOfTeeth& values)
   std::vector<double> means = means_of(values, every, first);
   if (means.empty()) return shape;
   return as_shape(teeth, every, first, shape[gear_effects::kPatternOpposite] != 0.0,
-                  std::move(means));
+                  std::move(means))
+      .value_or(shape);
 }
 
 }  // namespace trueflank::loop

@@ -26,7 +26,8 @@ struct ValuesOfTeeth {
 [[nodiscard]] std::vector<EffectShape> repeating_patterns(const ValuesOfTeeth& values,
                                                           bool opposite, std::size_t most);
 
-/// The same pattern with other means; as it is where a tooth of it was not measured.
+/// The same pattern with other means; as it is where a tooth of it was not
+/// measured, or all are alike.
 [[nodiscard]] EffectShape with_means_of(const EffectShape& shape, const ValuesOfTeeth& values);
 
 }  // namespace trueflank::loop

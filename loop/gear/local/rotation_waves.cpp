@@ -254,11 +254,15 @@ Agreement agreement_of(const SumsOfTraces& sums, int order) {
       .shared = std::min(shared, squares), .all = squares, .traces = static_cast<double>(n) - 1.0};
 }
 
+/// What is asked besides must be so much surer than the other orders have to be that it is no look
+/// more.
+constexpr double kSurer = 100.0;
+
 double p_of_agreement(const SumsOfTraces& sums, int order) {
   constexpr double kFewestTraces = 5.0;
   const Agreement of = agreement_of(sums, order);
   if (of.traces < kFewestTraces - 1.0) return 1.0;
-  return std::pow(1.0 - of.shared / of.all, of.traces - 1.0);
+  return std::min(1.0, kSurer * std::pow(1.0 - of.shared / of.all, of.traces - 1.0));
 }
 
 /// The same of two sides, each in a phase of its own.
@@ -269,12 +273,14 @@ double p_of_both(const SumsOfTraces& one, const SumsOfTraces& other, int order, 
   const double beside = a.traces + b.traces - 2.0;
   if (a.traces == 0.0 || b.traces == 0.0 || beside < kFewestTraces - 2.0) return 1.0;
   const double share = (a.shared + b.shared) / (a.all + b.all);
-  return std::pow(1.0 - share, beside) * (1.0 + beside * share);
+  return std::min(1.0, kSurer * std::pow(1.0 - share, beside) * (1.0 + beside * share));
 }
 
-double p_of_order(const SumsOfTraces& sums, int order, int teeth) {
+/// Of few teeth every order has a share of a wave, so that none stands out among the others.
+double p_of_order(const SumsOfTraces& sums, int order, int teeth, bool few) {
   if (order % teeth == 0) return 1.0;  // the same on every tooth: a form of the flank
-  return sums.of.empty() ? p_among_orders(sums, order, teeth) : p_of_agreement(sums, order);
+  const double among = few ? 1.0 : p_among_orders(sums, order, teeth);
+  return sums.of.empty() ? among : std::min(among, p_of_agreement(sums, order));
 }
 
 /// The order that stands out most; p value of one order alone.
@@ -307,10 +313,10 @@ bool stands_alone(const SumsOfTraces& sums, int order, int teeth) {
   return true;
 }
 
-/// Orders, either flank or both, and ways of counting; asked of what is left several times.
+/// Orders, and either flank in both ways of counting.
 double looks_at(int least, int most) {
-  constexpr double kFlanksAndWays = 6.0, kTimes = 5.0;
-  return kTimes * kFlanksAndWays * (most - least + 1);
+  constexpr double kFlanksAndWays = 4.0;
+  return kFlanksAndWays * (most - least + 1);
 }
 
 }  // namespace
@@ -341,19 +347,19 @@ RotationWave likeliest_rotation_wave(const FlankGeometry& geometry, const Observ
       auto& [side, of_side] = *std::next(sums.begin(), static_cast<std::ptrdiff_t>(k));
       of_side = order_sums(traces, side, least, most, backwards);
     });
+    // Two sides agree in one order more surely than either by itself.
+    RotationWave of_both;
+    if (sums.size() == 2)
+      of_both = likeliest(sums[1], few, [&](int order) {
+        return p_of_both(sums[1], sums[-1], order, geometry.teeth());
+      });
     for (const auto& [side, of_side] : sums) {
-      RotationWave wave = likeliest(
-          of_side, few, [&](int order) { return p_of_order(of_side, order, geometry.teeth()); });
-      // Two sides agree in one order more surely than either by itself.
-      if (sums.size() == 2) {
-        const SumsOfTraces& other = sums[-side];
-        const RotationWave of_both = likeliest(of_side, few, [&](int order) {
-          return p_of_both(of_side, other, order, geometry.teeth());
-        });
-        if (of_both.p_value < wave.p_value &&
-            std::norm(of_side.at(of_both.order)) >= std::norm(other.at(of_both.order)))
-          wave = of_both;
-      }
+      RotationWave wave = likeliest(of_side, few, [&](int order) {
+        return p_of_order(of_side, order, geometry.teeth(), few);
+      });
+      if (of_both.p_value < wave.p_value &&
+          std::norm(of_side.at(of_both.order)) >= std::norm(sums[-side].at(of_both.order)))
+        wave = of_both;
       // Orders beside one whose height changes around the gear make it less sure, and one counted
       // backwards, which follows it nearly as well, perhaps surer: not while it is the smaller one.
       if (!backwards)
@@ -391,10 +397,11 @@ double chance_of_rotation_wave(const FlankGeometry& geometry, const Observations
   for (const int side : {1, -1}) {
     if (wave.side != 0 && wave.side != side) continue;
     const SumsOfTraces own = order_sums(traces, side, least, most, wave.backwards);
-    if (!own.of.empty()) chance = std::min(chance, p_of_order(own, wave.order, geometry.teeth()));
+    if (!own.of.empty())
+      chance = std::min(chance, p_of_order(own, wave.order, geometry.teeth(), false));
     both.add(own);
   }
-  chance = std::min(chance, p_of_order(both, wave.order, geometry.teeth()));
+  chance = std::min(chance, p_of_order(both, wave.order, geometry.teeth(), false));
   return std::min(1.0, chance * looks_at(least, most));
 }
 

@@ -21,10 +21,12 @@ struct RotationWave {
 /// The likeliest wave over the generating rotation in profile traces of five teeth or more, from
 /// the order of one and a half waves a profile up to that of which a trace has four values a wave.
 /// The two flanks are cut at another place of the machine's turn, so each may have a phase of its
-/// own. Each order is judged by how well the waves of traces agree in its phases, so waves in a
-/// phase of their own on every tooth, and those that all teeth share, are none; on few teeth it
-/// must be much likelier than every other. Without traces the flanks of scans of most teeth are
-/// asked: against as many other orders as the gear has teeth. `row_um`: residuals of the table's
+/// own. An order of the traces of most teeth is judged against as many others as the gear has
+/// teeth. On fewer, and besides, it is judged by how well the waves of traces agree in its phases,
+/// and asked to be a hundred times surer then; so waves in a phase of their own on every tooth, and
+/// those that all teeth share, are none. On few teeth it must also be much likelier than every
+/// other order. Without traces the flanks of scans of most teeth are asked as traces of most teeth
+/// are, by the other orders alone. `row_um`: residuals of the table's
 /// rows; `used`: which rows are looked at.
 [[nodiscard]] RotationWave likeliest_rotation_wave(const FlankGeometry& geometry,
                                                    const Observations& table,

@@ -55,12 +55,11 @@ int places_of(const FlankGeometry& geometry, const Effect& effect) {
 /// without it.
 double cost_around(const FlankGeometry& geometry, double count, double square,
                    const std::vector<Effect>& effects) {
-  constexpr double kValue = 8.0;  // as in cost_of
   constexpr double kNothing = 1e-9;
   int places = 0;
   for (const Effect& effect : effects) places += places_of(geometry, effect);
-  return count * std::log(std::max(square, kNothing * count)) + kValue * values_of(effects, true) +
-         2.0 * places * std::log(geometry.teeth());
+  return count * std::log(std::max(square, kNothing * count)) +
+         kCostOfValue * values_of(effects, true) + 2.0 * places * std::log(geometry.teeth());
 }
 
 /// Says nothing of where on a flank: values one a tooth show it.

@@ -328,7 +328,7 @@ RunOfTeeth longest_run(const std::vector<std::pair<int, std::size_t>>& teeth, in
 /// where the teeth leave nothing that others share, if it says as much for its values.
 std::optional<Effect> form_of_teeth(const PartModel& model, const std::vector<Effect>& rest,
                                     FlankChoice flank, int first, int count) {
-  constexpr double kNearly = 0.1, kNothing = 9.0, kValue = 8.0;  // chi-square
+  constexpr double kNearly = 0.1, kNothing = 9.0;                // chi-square
   constexpr double kValuesOfForm = 3.0;                          // a place, a width, a height
   const auto teeth = static_cast<double>(model.effects.size() - rest.size());
   std::vector<Effect> tried{
@@ -367,7 +367,7 @@ std::optional<Effect> form_of_teeth(const PartModel& model, const std::vector<Ef
   with.back() = best;
   const double all = fit_of(model, model.effects)->residual_square();
   if (least > all + kNearly * (fit_of(model, rest)->residual_square() - all) ||
-      (least > all + kNothing + kValue * (teeth - kValuesOfForm) &&
+      (least > all + kNothing + kCostOfValue * (teeth - kValuesOfForm) &&
        !is_shared(model, shared_beside(model, model.effects))))
     return {};
   return best;

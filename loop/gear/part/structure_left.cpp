@@ -15,15 +15,16 @@ namespace {
 /// by chance far better than that, which says nothing.
 bool are_sizes_within_their_errors(const PartModel& model) {
   constexpr double kLevel = 0.01;
+  if (!std::all_of(model.table->rows.begin(), model.table->rows.end(),
+                   [](const Observation& row) { return row.kind == ObservationKind::kSize; }))
+    return false;
   double square = 0.0;
   int count = 0;
   const auto row_um = fit_of(model, model.effects)->residuals_um();
   for (std::size_t i = 0; i < model.table->rows.size(); ++i) {
     const Observation& row = model.table->rows[i];
-    if (row.kind != ObservationKind::kSize) return false;
     if (model.patches.patch_of_row[i] < 0) continue;
-    const double sigma_um = model.table->sigma_um(row);
-    square += std::pow((*row_um)[i] / (std::isnan(sigma_um) ? kDefaultSizeSigma_um : sigma_um), 2);
+    square += std::pow((*row_um)[i] / model.table->size_sigma_um(row), 2);
     ++count;
   }
   constexpr double kKnown = 1e9;  // degrees of freedom of an error that is stated

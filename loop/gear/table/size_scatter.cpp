@@ -18,8 +18,7 @@ bool is_of_flanks(SizeQuantity quantity) {
 }
 
 double own_sigma_um(const Observations& table, const SizeInTable& size) {
-  const double sigma = table.sigma_um(table.rows[size.row]);
-  return std::isnan(sigma) ? kDefaultSizeSigma_um : sigma;
+  return table.size_sigma_um(table.rows[size.row]);
 }
 
 void set_sigma_um(Observations& table, const SizeInTable& size, double sigma_um) {

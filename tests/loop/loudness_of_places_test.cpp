@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/discovery/window_roughness.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "trueflank/loop/discovery/course_scan.h"
+#include "trueflank/loop/discovery/loudness.h"
 
 namespace trueflank::loop {
 namespace {
@@ -19,7 +18,7 @@ Eigen::VectorXd white_course(Eigen::Index values, unsigned seed) {
   return Eigen::VectorXd::NullaryExpr(values, [&] { return normal(random); });
 }
 
-TEST(WindowRoughness, LoudnessOfFewTellsOneThatIsFarLouderAndNoQuietOne) {
+TEST(LoudnessOfFew, TellsOneThatIsFarLouderAndNoQuietOne) {
   const std::vector<double> many{120.0, 120.0, 120.0};
   const std::vector<double> loud = loudness_of_few({1.0, 1.1, 3.0}, many).factors;
   EXPECT_EQ(loud[0], 1.0);
@@ -30,7 +29,7 @@ TEST(WindowRoughness, LoudnessOfFewTellsOneThatIsFarLouderAndNoQuietOne) {
   EXPECT_EQ(loudness_of_few({2.0}, {80.0}).factors, std::vector<double>{1.0});
 }
 
-TEST(WindowRoughness, LoudnessOfFewIsSeldomToldOfCoursesAlike) {
+TEST(LoudnessOfFew, IsSeldomToldOfCoursesAlike) {
   int told = 0;
   for (unsigned seed = 1; seed <= 200; ++seed) {
     std::vector<double> scatters;
@@ -59,7 +58,7 @@ Eigen::VectorXd loudness_along(const Eigen::MatrixXd& set) {
   return loudness_of_places({set}, {scatters});
 }
 
-TEST(WindowRoughness, LoudnessOfPlacesFollowsThemAndIsOneWhereTheyAreAlike) {
+TEST(LoudnessOfPlaces, FollowsThemAndIsOneWhereTheyAreAlike) {
   constexpr int kSets = 20;
   double behind = 0.0, before = 0.0;
   for (unsigned seed = 1; seed <= kSets; ++seed) {
@@ -84,7 +83,7 @@ int spots_in(int sets, const std::function<std::vector<Eigen::MatrixXd>(unsigned
   return spots;
 }
 
-TEST(WindowRoughness, LoudnessOfPlacesAndOfFewCoursesKeepsSpotsAway) {
+TEST(LoudnessOfPlaces, AndOfFewCoursesKeepsSpotsAway) {
   EXPECT_LE(spots_in(60,
                      [](unsigned seed) {
                        return std::vector{louder_behind(0.8, 3.0, 6, seed),
@@ -102,7 +101,7 @@ TEST(WindowRoughness, LoudnessOfPlacesAndOfFewCoursesKeepsSpotsAway) {
             5);
 }
 
-TEST(WindowRoughness, LoudnessOfPlacesLeavesSpotsOfQuietPlaces) {
+TEST(LoudnessOfPlaces, LeavesSpotsOfQuietPlaces) {
   EXPECT_GE(spots_in(20,
                      [](unsigned seed) {
                        Eigen::MatrixXd set = louder_behind(0.8, 3.0, 6, seed);
