@@ -30,7 +30,7 @@ enum class Correctable { kGeometry, kNoCause };
 using EffectShape = std::vector<double>;
 
 /// What a value more has to take off the chi-square of what is left, so that it is worth telling.
-inline constexpr double kCostOfValue = 8.0;
+inline constexpr double kChiSquareOfValue = 8.0;
 
 struct Effect;
 

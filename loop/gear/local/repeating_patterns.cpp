@@ -93,7 +93,7 @@ std::vector<EffectShape> repeating_patterns(const ValuesOfTeeth& values, bool op
       const double left = std::max(all - of_mean - explained, 1e-9 * all);
       if (!(explained > 0.0) || !(all - of_mean > 0.0)) continue;
       if (auto shape = as_shape(teeth, every, first, opposite, std::move(means)))
-        found.emplace_back(measured * std::log(left) + kCostOfValue * (every - 1),
+        found.emplace_back(measured * std::log(left) + kChiSquareOfValue * (every - 1),
                            std::move(*shape));
     }
   std::sort(found.begin(), found.end(),

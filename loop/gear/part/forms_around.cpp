@@ -59,7 +59,7 @@ double cost_around(const FlankGeometry& geometry, double count, double square,
   int places = 0;
   for (const Effect& effect : effects) places += places_of(geometry, effect);
   return count * std::log(std::max(square, kNothing * count)) +
-         kCostOfValue * values_of(effects, true) + 2.0 * places * std::log(geometry.teeth());
+         kChiSquareOfValue * values_of(effects, true) + 2.0 * places * std::log(geometry.teeth());
 }
 
 /// Says nothing of where on a flank: values one a tooth show it.

@@ -134,7 +134,7 @@ bool has_single_values_only(const PartModel& model) {
 }
 
 double cost_of(const PartModel& model, const std::vector<Effect>& effects) {
-  return fit_of(model, effects)->residual_square() + kCostOfValue * values_of(effects, true);
+  return fit_of(model, effects)->residual_square() + kChiSquareOfValue * values_of(effects, true);
 }
 
 int values_of(const std::vector<Effect>& effects, bool places_too) {

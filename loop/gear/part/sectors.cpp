@@ -367,7 +367,7 @@ std::optional<Effect> form_of_teeth(const PartModel& model, const std::vector<Ef
   with.back() = best;
   const double all = fit_of(model, model.effects)->residual_square();
   if (least > all + kNearly * (fit_of(model, rest)->residual_square() - all) ||
-      (least > all + kNothing + kCostOfValue * (teeth - kValuesOfForm) &&
+      (least > all + kNothing + kChiSquareOfValue * (teeth - kValuesOfForm) &&
        !is_shared(model, shared_beside(model, model.effects))))
     return {};
   return best;
