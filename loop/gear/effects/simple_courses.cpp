@@ -247,10 +247,12 @@ double AroundCourse::value(const FlankGeometry& g, int tooth) const {
       return bell(off, half);
     case kSector:
       return std::abs(off) < half ? 1.0 : 0.0;
-    case kRamp: {
+    case kRamp:
+    case kFade: {
       constexpr double kRounding = 1e-9;
-      const double from = off < -kRounding ? off + kTwoPi : std::max(0.0, off);
-      return from / (kTwoPi - kTwoPi / g.teeth());
+      const double from = off < -kRounding ? off + kTwoPi : std::max(0.0, off),
+                   share = from / (kTwoPi - kTwoPi / g.teeth());
+      return kind == kRamp ? share : 1.0 - share;
     }
     case kWave:
       return std::cos(kPi * off / half);
@@ -275,11 +277,12 @@ std::vector<AroundCourse> AroundCourse::beside(const FlankGeometry& g) const {
       return;
     courses.push_back(course);
   };
-  if (kind == kSector || kind == kRamp) {
+  const bool begins = kind == kRamp || kind == kFade;
+  if (kind == kSector || begins) {
     for (const double teeth : {-4.0, -2.0, -1.0, -0.5, 0.5, 1.0, 2.0, 4.0}) {
-      if (kind == kRamp && teeth != std::floor(teeth)) continue;
+      if (begins && teeth != std::floor(teeth)) continue;
       add({kind, towards_deg + teeth * pitch_deg, half_deg});
-      if (kind == kRamp) continue;
+      if (begins) continue;
       add({kind, towards_deg, half_deg + teeth * pitch_deg});
       for (const double sign : {-1.0, 1.0})
         add({kind, towards_deg + 0.5 * teeth * pitch_deg,
@@ -321,11 +324,15 @@ std::string AroundCourse::words(const FlankGeometry& g) const {
       }
       return printed("on %d teeth from tooth %d on", count, first);
     }
-    case kRamp: {
+    case kRamp:
+    case kFade: {
+      const double begins = kind == kRamp ? 0.0 : 1.0;
       int first = 1;
       for (int tooth = 2; tooth <= g.teeth(); ++tooth)
-        if (value(g, tooth) < value(g, first)) first = tooth;
-      return printed("from tooth %d on more and more from tooth to tooth, once around", first);
+        if (std::abs(value(g, tooth) - begins) < std::abs(value(g, first) - begins)) first = tooth;
+      return printed("from tooth %d on ", first) +
+             (kind == kRamp ? "more and more" : "less and less") +
+             " from tooth to tooth, once around";
     }
     case kWave: {
       const int order = static_cast<int>(std::lround(180.0 / half_deg));
@@ -344,7 +351,7 @@ std::string AroundCourse::words(const FlankGeometry& g) const {
 }
 
 std::vector<std::string> AroundCourse::kind_words() {
-  return {"half", "bell", "sector", "ramp", "wave", "every", "comb"};
+  return {"half", "bell", "sector", "ramp", "wave", "every", "comb", "fade"};
 }
 
 std::vector<AroundCourse> courses_around(const FlankGeometry& g) {

@@ -50,12 +50,13 @@ struct FlankCourse {
 struct AroundCourse {
   /// A cosine on one half and nothing on the other; a bell; some teeth and no others; from nothing
   /// at a tooth evenly to all before it comes around; waves; the same on every tooth; one tooth in
-  /// so many, counted from the first one of the gear on.
-  enum Kind { kHalf, kBell, kSector, kRamp, kWave, kEvery, kComb };
+  /// so many, counted from the first one of the gear on; from all at a tooth evenly to nothing
+  /// before it comes around.
+  enum Kind { kHalf, kBell, kSector, kRamp, kWave, kEvery, kComb, kFade };
   static constexpr std::size_t kValues = 3;
 
   Kind kind = kHalf;
-  double towards_deg = 0.0;  ///< where it is most, or begins (kRamp, kComb)
+  double towards_deg = 0.0;  ///< where it is most, or begins (kRamp, kFade, kComb)
   double half_deg = 0.0;     ///< half its width (kBell, kSector) or period (kWave, kComb)
 
   /// One tooth in so many, from one on.

@@ -494,6 +494,10 @@ std::vector<LikelyForms> LikeliestProducts::waves() const {
                                         scan);
 }
 
+std::vector<LikelyForms> LikeliestProducts::growing_waves() const {
+  return product_cells::likeliest_growing_waves(cells_->geometry, cells_->teeth);
+}
+
 LikelyWavesBeside LikeliestProducts::profile_waves(
     const std::vector<std::vector<Effect>>& besides) const {
   return product_cells::likeliest_profile_waves(cells_->geometry, cells_->teeth, besides);

@@ -65,6 +65,7 @@ class LikeliestProducts {
   [[nodiscard]] LikelyWavesBeside profile_waves(
       const std::vector<std::vector<Effect>>& besides) const;
   [[nodiscard]] std::vector<LikelyForms> waves() const;  ///< unnamed_crossed_waves
+  [[nodiscard]] std::vector<LikelyForms> growing_waves() const;  ///< unnamed_crossed_waves
   [[nodiscard]] std::vector<LikelyForms> of_order(
       const OrderAsked& asked) const;  ///< unnamed_crossed_order
 

@@ -24,6 +24,27 @@ double gain_of(double c, double s, double weight) {
   return weight > 0.0 ? 2.0 * (c * c + s * s) / weight : 0.0;
 }
 
+// (a cell is half of one at most)
+constexpr double kFewestWaves = 2.0, kMostWaves = 14.0, kStepOfWaves = 0.25;
+
+/// Cosine and sine of so many waves over the flank in the middle of a cell.
+std::array<double, 2> unit_in_cell(double waves, std::size_t cell) {
+  const double angle = kTwoPi * waves * (static_cast<double>(cell) + 0.5) / kProductCells;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+Effect wave_form(const FlankGeometry& g, const FlankWay& way, int face, double waves,
+                 const FlankCourse& course, const AroundCourse& where) {
+  const double range_mm =
+      face != 0 ? g.face_width_mm() : std::abs(g.tip_form_roll_mm() - g.root_form_roll_mm());
+  EffectShape shape(2 + FlankCourse::kValues + AroundCourse::kValues);
+  shape[0] = face;
+  shape[1] = range_mm / waves;
+  course.put_in(shape, 2);
+  where.put_in(shape, 2 + FlankCourse::kValues);
+  return {find_family("unnamed_crossed_waves"), way.flank, std::move(shape)};
+}
+
 /// Waves over profile (0) or face (1) of the flanks of a way, both alike or one: those whose size
 /// follows a course in the other direction, alike on every tooth, and those that go around the
 /// gear.
@@ -33,25 +54,15 @@ struct LikelyWaves {
 LikelyWaves likely_waves(const FlankGeometry& g, const OfTeeth& teeth, const FlankWay& way,
                          int face, const std::vector<CourseInCells>& across,
                          const Arounds& arounds) {
-  constexpr double kFewest = 2.0, kMost = 14.0,
-                   kStep = 0.25;  // waves: a cell is half of one at most
-  const double range_mm =
-      face != 0 ? g.face_width_mm() : std::abs(g.tip_form_roll_mm() - g.root_form_roll_mm());
   LikelyWaves likely;
-  for (double waves = kFewest; waves <= kMost; waves += kStep) {
+  for (double waves = kFewestWaves; waves <= kMostWaves; waves += kStepOfWaves) {
     const auto form = [&](const FlankCourse& course, const AroundCourse& where) {
-      EffectShape shape(2 + FlankCourse::kValues + AroundCourse::kValues);
-      shape[0] = face;
-      shape[1] = range_mm / waves;
-      course.put_in(shape, 2);
-      where.put_in(shape, 2 + FlankCourse::kValues);
-      return Effect{find_family("unnamed_crossed_waves"), way.flank, std::move(shape)};
+      return wave_form(g, way, face, waves, course, where);
     };
     std::vector<WaveSum> of_teeth(teeth.size());
     std::array<WaveSum, kProductCells> over{};  // the other direction, of all teeth
     for (std::size_t i = 0; i < kProductCells; ++i) {
-      const double angle = kTwoPi * waves * (static_cast<double>(i) + 0.5) / kProductCells;
-      const std::array unit{std::cos(angle), std::sin(angle)};
+      const std::array unit = unit_in_cell(waves, i);
       for (std::size_t t = 0; t < teeth.size(); ++t)
         for (const std::size_t side : {0U, 1U}) {
           if (way.signs[side] == 0.0) continue;
@@ -84,6 +95,35 @@ LikelyWaves likely_waves(const FlankGeometry& g, const OfTeeth& teeth, const Fla
       }
       likely.around.push_back({gain_of(c, s, weight), form({}, arounds.courses[a])});
     }
+  }
+  return likely;
+}
+
+/// Those of all teeth that grow or fade evenly from one tooth on, once around.
+std::vector<Likely> growing_waves(const FlankGeometry& g, const OfTeeth& teeth, const FlankWay& way,
+                                  int face) {
+  std::vector<Likely> likely;
+  for (double waves = kFewestWaves; waves <= kMostWaves; waves += kStepOfWaves) {
+    std::vector<WaveSum> of_teeth(teeth.size());
+    for (std::size_t i = 0; i < kProductCells; ++i)
+      for (std::size_t t = 0; t < teeth.size(); ++t)
+        for (const std::size_t side : {0U, 1U})
+          if (way.signs[side] != 0.0)
+            of_teeth[t].add(face == 0 ? teeth[t][side].profile[i] : teeth[t][side].face[i],
+                            unit_in_cell(waves, i));
+    for (int first = 1; first <= g.teeth(); ++first)
+      for (const AroundCourse::Kind kind : {AroundCourse::kRamp, AroundCourse::kFade}) {
+        const AroundCourse course{kind, deg_from_rad(g.centre_rad(first))};
+        double c = 0.0, s = 0.0, weight = 0.0;
+        for (int tooth = 1; tooth <= g.teeth(); ++tooth) {
+          const double on = course.value(g, tooth);
+          const WaveSum& own = of_teeth[static_cast<std::size_t>(tooth - 1)];
+          c += on * own.c;
+          s += on * own.s;
+          weight += on * on * own.weight;
+        }
+        likely.push_back({gain_of(c, s, weight), wave_form(g, way, face, waves, {}, course)});
+      }
   }
   return likely;
 }
@@ -123,6 +163,14 @@ std::vector<LikelyForms> likeliest_waves(const FlankGeometry& g, const OfTeeth& 
       if (scan) add_lists(std::move(waves.across), lists);
       add_lists(std::move(waves.around), lists);
     }
+  return lists;
+}
+
+std::vector<LikelyForms> likeliest_growing_waves(const FlankGeometry& g, const OfTeeth& teeth) {
+  std::vector<LikelyForms> lists;
+  for (const FlankWay& way : flank_ways(g))
+    for (const int face : {0, 1})
+      if (!way.opposite) add_lists(growing_waves(g, teeth, way, face), lists);
   return lists;
 }
 

@@ -81,6 +81,10 @@ using OfTeeth = std::vector<std::array<OfFlank, 2>>;
                                                        const std::vector<CourseInCells>& faces,
                                                        const Arounds& arounds, bool scan);
 
+/// Waves along one direction that grow or fade evenly from tooth to tooth, once around.
+[[nodiscard]] std::vector<LikelyForms> likeliest_growing_waves(const FlankGeometry& geometry,
+                                                               const OfTeeth& teeth);
+
 /// Waves over the profile that are the same on every tooth, beside the set of effects that leaves
 /// least with them.
 [[nodiscard]] LikelyWavesBeside likeliest_profile_waves(

@@ -13,6 +13,7 @@
 
 #include "trueflank/base/units.h"
 #include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/local/likeliest_products.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/parts_of_forms.h"
@@ -238,6 +239,49 @@ std::vector<Effect> with_wave_of_the_tool(const PartModel& model, std::vector<st
     }
   }
   return {};
+}
+
+std::vector<Effect> with_growing_wave(const PartModel& model, std::vector<std::size_t>& these) {
+  constexpr double kSameLength = 0.15, kClearly = 30.0;  // kClearly: chi-square
+  constexpr int kMoreValues = 2;
+  std::vector<std::size_t> orders;
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e)
+    if (model.effects[e].order() > 0.0 &&
+        (model.effects[e].needs().along_profile || model.effects[e].needs().along_face))
+      orders.push_back(e);
+  std::vector<Effect> best;
+  double least = cost_of(model, model.effects) - kClearly;
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    const Effect& wave = model.effects[e];
+    if (wave.family != find_family("unnamed_waviness")) continue;
+    std::vector<std::vector<std::size_t>> sets{{e}};
+    if (!orders.empty()) {
+      sets.push_back(orders);
+      sets.back().push_back(e);
+      std::sort(sets.back().begin(), sets.back().end());
+    }
+    for (const std::vector<std::size_t>& set : sets) {
+      std::vector<Effect> others;
+      for (std::size_t o = 0; o < model.effects.size(); ++o)
+        if (std::find(set.begin(), set.end(), o) == set.end()) others.push_back(model.effects[o]);
+      const LikeliestProducts likeliest(model.geometry, model.table, model.patches,
+                                        *fit_of(model, others)->residuals_um());
+      for (const LikelyForms& likely : likeliest.growing_waves()) {
+        const EffectShape& shape = likely.forms.front().shape;
+        if (shape[0] != wave.shape[0] ||
+            std::abs(shape[1] - wave.shape[1]) > kSameLength * wave.shape[1])
+          continue;
+        std::vector<Effect> with = one_form_for(model, set, likely.forms, {}, kMoreValues);
+        if (with.empty()) continue;
+        const double cost = cost_of(model, with);
+        if (!(cost < least)) continue;
+        least = cost;
+        best = std::move(with);
+        these = set;
+      }
+    }
+  }
+  return best;
 }
 
 void tell_waves_of_a_form(PartModel& model) {

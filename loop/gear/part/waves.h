@@ -38,6 +38,11 @@ struct WaveAcross {
 /// undo what it has there. Empty where the data show more than the profile wave has.
 [[nodiscard]] std::vector<Effect> with_wave_of_the_tool(const PartModel& model,
                                                         std::vector<std::size_t>& these);
+/// A wave along the flanks that grows or fades from tooth to tooth, in place of one that all teeth
+/// have alike and of the orders that follow its growth. Empty where the data do not clearly show
+/// it.
+[[nodiscard]] std::vector<Effect> with_growing_wave(const PartModel& model,
+                                                    std::vector<std::size_t>& these);
 /// Waves around the gear of three orders or more and of like size, none a multiple of the lowest,
 /// or of two beside a drift: what one odd form is made of.
 void tell_waves_of_a_form(PartModel& model);

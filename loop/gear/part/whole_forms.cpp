@@ -230,6 +230,7 @@ bool take_up_whole_forms(PartModel& model) {
   if (with.empty()) with = with_one_side(model, these);
   if (with.empty()) with = with_reversal(model, these);
   if (with.empty()) with = with_products(model, these);
+  if (with.empty()) with = with_growing_wave(model, these);
   if (with.empty()) with = with_phase_of_each_flank(model, these);
   if (with.empty()) {
     with = with_sector(model, these);
