@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/gear/remainder_around.h"
+#include "trueflank/loop/gear/effects/columns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -368,9 +369,10 @@ class AroundSearch {
     };
     using Kind = RingFinding::Kind;
     if (found.kind == Kind::kRamp) {
-      add_here("unnamed_ramp", {found.first + 1.0, u, v, turned});
+      add_here("unnamed_ramp", {found.first + 1.0, u, v, turned, gear_effects::kMeanOfDrift});
     } else if (found.kind == Kind::kSaw) {
-      add_here("unnamed_saw", {double(found.count), found.first + 1.0, u, v, turned});
+      add_here("unnamed_saw",
+               {double(found.count), found.first + 1.0, u, v, turned, gear_effects::kMeanOfDrift});
     } else if (found.kind == Kind::kComb && found.count > 2) {
       add_here("unnamed_comb", {double(found.count), found.first + 1.0, u, v, turned});
     } else if (found.kind == Kind::kArc) {

@@ -365,7 +365,7 @@ TEST(PiecesToldAsOne, ASlopeIsNoCauseWhereItIsAMean) {
       return (slope + 16.0 * gone(g, s.tooth, 1) / g.teeth - 8.0) * s.v;
     };
     Pieces drift(spur(20), grown(drifts),
-                 {piece("taper", {}), piece("unnamed_ramp", {1.0, 0.0, 1.0, 0.0})});
+                 {piece("taper", {}), piece("unnamed_ramp", {1.0, 0.0, 1.0, 0.0, 0.0})});
     tell_means_of_odd_forms(*drift);
     EXPECT_EQ(drift.told().front().family->named, slope > 20.0) << drift.text();
   }

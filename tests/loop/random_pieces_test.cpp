@@ -144,7 +144,7 @@ std::pair<Effect, std::vector<Effect>> form_and_its_pieces(std::mt19937_64& rand
   for (const double order : {1.0, 2.0, 3.0}) waves.push_back(term(0.0, lean, order));
   switch (teeth % 4 == 0 ? below(6) : 1 + 2 * below(3)) {  // (a comb of four needs as many teeth)
     case 0:
-      return {form("unnamed_ramp", {first, 0.0, lean, 0.0}), waves};
+      return {form("unnamed_ramp", {first, 0.0, lean, 0.0, 0.0}), waves};
     case 1:
       return {form("unnamed_sector", {first, double(teeth / 4 + below(teeth / 4)), 0.0, lean, 0.0}),
               waves};

@@ -170,7 +170,7 @@ TEST_F(StartsOfForms, AroundTheGearHaveAStartThatIsLikeThem) {
     return EffectShape{first(), double(whole(2, z / 2)), 0.0, 0.0, opposite()};
   });
   expect_start(all, "unnamed_ramp", 0.999, [&] {
-    return EffectShape{first(), 0.0, 0.0, opposite()};
+    return EffectShape{first(), 0.0, 0.0, opposite(), 0.0};
   });
   expect_start(all, "unnamed_levelling", 0.98, [&] {
     return EffectShape{first(), 0.0, 0.0, opposite(), opposite(), any(0.06, 0.5) * z, 0.0};
@@ -180,8 +180,8 @@ TEST_F(StartsOfForms, AroundTheGearHaveAStartThatIsLikeThem) {
   });
   expect_start(all, "unnamed_saw", 0.999, [&] {
     const int every = whole(4, z / 2);
-    return EffectShape{double(every), double(whole(1, z % every == 0 ? every : z)), 0.0, 0.0,
-                       opposite()};
+    return EffectShape{
+        double(every), double(whole(1, z % every == 0 ? every : z)), 0.0, 0.0, opposite(), 0.0};
   });
   expect_start(all, "unnamed_comb", 0.999, [&] {
     const int every = whole(2, 6);

@@ -84,7 +84,7 @@ void set_columns(EffectFamily& family, EffectFamily::FormTimesTooth columns);
 [[nodiscard]] std::vector<EffectShape> sectors_beside(const FlankGeometry& geometry,
                                                       const EffectShape& shape, int most);
 
-/// @name Where an uneven drift around the gear is nothing (shape value): at its mean over the
+/// @name Where a drift around the gear is nothing (shape value): at its mean over the
 /// teeth, on its first tooth or on its last
 /// @{
 inline constexpr double kMeanOfDrift = 0.0, kFirstOfDrift = 1.0, kLastOfDrift = 2.0;

@@ -81,6 +81,8 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_crossed_around();
 /// True of one that one tooth in so many has.
 [[nodiscard]] bool is_of_a_comb(const Effect& form);
+/// A slope or a bow of one tooth in so many as unnamed_comb; others as they are.
+[[nodiscard]] Effect as_plain_comb(const FlankGeometry& geometry, const Effect& form);
 [[nodiscard]] EffectFamily unnamed_crossed_order();
 [[nodiscard]] EffectFamily unnamed_crossed_waves();
 [[nodiscard]] EffectFamily unnamed_band();

@@ -216,17 +216,12 @@ void AroundCourse::put_in(EffectShape& shape, std::size_t first) const {
   shape[first + 2] = half_deg;
 }
 
-namespace {
-
-/// Of a comb: every how many teeth, and the first.
-std::pair<int, int> teeth_of_comb(const FlankGeometry& g, const AroundCourse& comb) {
+std::pair<int, int> AroundCourse::teeth_of_comb(const FlankGeometry& g) const {
   const double pitch_deg = 360.0 / g.teeth();
-  const double off_deg = comb.towards_deg - deg_from_rad(g.centre_rad(1));
-  return {std::max(1, static_cast<int>(std::lround(2.0 * comb.half_deg / pitch_deg))),
+  const double off_deg = towards_deg - deg_from_rad(g.centre_rad(1));
+  return {std::max(1, static_cast<int>(std::lround(2.0 * half_deg / pitch_deg))),
           static_cast<int>(std::lround(off_deg / pitch_deg)) + 1};
 }
-
-}  // namespace
 
 AroundCourse AroundCourse::comb(const FlankGeometry& g, int every, int first) {
   const double pitch_deg = 360.0 / g.teeth();
@@ -235,7 +230,7 @@ AroundCourse AroundCourse::comb(const FlankGeometry& g, int every, int first) {
 
 double AroundCourse::value(const FlankGeometry& g, int tooth) const {
   if (kind == kComb) {
-    const auto [every, first] = teeth_of_comb(g, *this);
+    const auto [every, first] = teeth_of_comb(g);
     return (tooth - first) % every == 0 ? 1.0 : 0.0;
   }
   const double off = std::remainder(g.centre_rad(tooth) - rad_from_deg(towards_deg), kTwoPi);
@@ -343,7 +338,7 @@ std::string AroundCourse::words(const FlankGeometry& g) const {
              (order > 1 ? " first" : "");
     }
     case kComb: {
-      const auto [every, first] = teeth_of_comb(g, *this);
+      const auto [every, first] = teeth_of_comb(g);
       return printed("on one tooth in %d, from tooth %d on", every, first);
     }
   }

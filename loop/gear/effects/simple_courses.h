@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "trueflank/loop/gear/effect.h"
@@ -62,6 +63,8 @@ struct AroundCourse {
   /// One tooth in so many, from one on.
   [[nodiscard]] static AroundCourse comb(const FlankGeometry& geometry, int every, int first);
 
+  /// Of kComb: every how many teeth, and the first.
+  [[nodiscard]] std::pair<int, int> teeth_of_comb(const FlankGeometry& geometry) const;
   [[nodiscard]] static AroundCourse at(const EffectShape& shape, std::size_t first) {
     return {static_cast<Kind>(static_cast<int>(shape[first])), shape[first + 1], shape[first + 2]};
   }

@@ -16,6 +16,14 @@ namespace trueflank::loop::gear_effects {
 namespace {
 
 const TermKey kFlanks{"flanks", TermKey::Kind::kWord, {"equal", "opposite"}};
+const TermKey kZeroAt{
+    "zero_at", TermKey::Kind::kWord, {"mean", "first_tooth", "last_tooth"}};  // of a drift
+
+std::string words_of_zero(double zero_at) {
+  return zero_at == kMeanOfDrift    ? ""
+         : zero_at == kFirstOfDrift ? ", from nothing on its first tooth"
+                                    : ", to nothing on its last tooth";
+}
 
 /// 1 on teeth of the sector.
 double in_sector(const FlankGeometry& g, int tooth, const EffectShape& shape) {
@@ -152,20 +160,23 @@ std::vector<EffectShape> begun_beside(const FlankGeometry& g, const EffectShape&
 }  // namespace
 
 EffectFamily unnamed_ramp() {
-  EffectFamily f = described("unnamed_ramp",
-                             {"first_tooth", "profile_degree", "face_degree", "opposite_flanks"});
+  EffectFamily f = described("unnamed_ramp", {"first_tooth", "profile_degree", "face_degree",
+                                              "opposite_flanks", "zero_at"});
   f.is_drift = true;
   set_columns(f, {[](const FlankGeometry& g, int tooth, const EffectShape& shape, double* factor) {
-                    factor[0] =
-                        static_cast<double>(teeth_since(g, tooth, shape[0])) / g.teeth() - 0.5;
+                    const double z = g.teeth();
+                    factor[0] = teeth_since(g, tooth, shape[0]) / z -
+                                (shape[4] == kMeanOfDrift    ? 0.5
+                                 : shape[4] == kFirstOfDrift ? 0.0
+                                                             : (z - 1.0) / z);
                   },
                   form_at(1)});
   f.nearby = begun_beside;
-  f.term_keys = {{"first_tooth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
+  f.term_keys = {{"first_tooth"}, {"profile_degree"}, {"face_degree"}, kFlanks, kZeroAt};
   f.words = [](const ToldForm& told) {
     const CourseOfTeeth course = CourseOfTeeth::at(told, 1);
     return printed("from tooth %.0f on, once around, ", told.shape[0]) + course.what() +
-           " drifts evenly" + course.direction() +
+           " drifts evenly" + course.direction() + words_of_zero(told.shape[4]) +
            ", and begins anew, as from a tool that wears or a machine that warms up";
   };
   return f;
@@ -214,7 +225,7 @@ EffectFamily unnamed_levelling() {
                  kFlanks,
                  {"course", TermKey::Kind::kWord, {"levels_off", "grows"}},
                  number("within_teeth"),
-                 {"zero_at", TermKey::Kind::kWord, {"mean", "first_tooth", "last_tooth"}}};
+                 kZeroAt};
   f.words = [](const ToldForm& told) {
     const CourseOfTeeth course = CourseOfTeeth::at(told, 1);
     const double teeth = std::min(std::ceil(told.shape[5]), double(told.geometry.teeth()));
@@ -224,9 +235,7 @@ EffectFamily unnamed_levelling() {
            printed(told.shape[4] != 0.0 ? ", most of it in the last %.0f teeth"
                                         : ", most of it in the first %.0f teeth",
                    teeth) +
-           (told.shape[6] == kMeanOfDrift    ? ""
-            : told.shape[6] == kFirstOfDrift ? ", from nothing on its first tooth"
-                                             : ", to nothing on its last tooth") +
+           words_of_zero(told.shape[6]) +
            ", and begins anew, as from a machine that warms up or a tool that wears";
   };
   return f;
@@ -288,13 +297,16 @@ EffectFamily unnamed_broken_wave() {
 
 EffectFamily unnamed_saw() {
   EffectFamily f = described("unnamed_saw", {"restarts_every", "first_tooth", "profile_degree",
-                                             "face_degree", "opposite_flanks"});
+                                             "face_degree", "opposite_flanks", "zero_at"});
   f.is_drift = true;
   set_columns(f, {[](const FlankGeometry& g, int tooth, const EffectShape& shape, double* factor) {
                     const int every = static_cast<int>(shape[0]);
                     const int since = teeth_since(g, tooth, shape[1]) % every;
                     // (from the first tooth of a run to its last)
-                    factor[0] = static_cast<double>(since) / (every - 1) - 0.5;
+                    factor[0] = static_cast<double>(since) / (every - 1) -
+                                (shape[5] == kMeanOfDrift    ? 0.5
+                                 : shape[5] == kFirstOfDrift ? 0.0
+                                                             : 1.0);
                   },
                   form_at(2)});
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
@@ -309,11 +321,12 @@ EffectFamily unnamed_saw() {
       }
     return shapes;
   };
-  f.term_keys = {{"restarts_every"}, {"first_tooth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
+  f.term_keys = {{"restarts_every"}, {"first_tooth"}, {"profile_degree"},
+                 {"face_degree"},    kFlanks,         kZeroAt};
   f.words = [](const ToldForm& told) {
     const CourseOfTeeth course = CourseOfTeeth::at(told, 2);
     return printed("from tooth %.0f on ", told.shape[1]) + course.what() + " drifts evenly" +
-           course.direction() +
+           course.direction() + words_of_zero(told.shape[5]) +
            printed(
                ", and begins anew every %.0f teeth, as from a tool that wears and is dressed or "
                "set again",

@@ -191,6 +191,20 @@ bool is_of_a_comb(const Effect& form) {
          AroundCourse::at(form.shape, kAround).kind == AroundCourse::kComb;
 }
 
+Effect as_plain_comb(const FlankGeometry& g, const Effect& form) {
+  if (!is_of_a_comb(form)) return form;
+  const FlankCourse profile = FlankCourse::at(form.shape, kProfile),
+                    face = FlankCourse::at(form.shape, kFace);
+  const auto degree = [](const FlankCourse& course) {
+    return course.kind == FlankCourse::kSlope ? 1.0 : course.kind == FlankCourse::kBow ? 2.0 : 0.0;
+  };
+  if (!profile.is_polynomial() || !face.is_polynomial()) return form;
+  const auto [every, first] = AroundCourse::at(form.shape, kAround).teeth_of_comb(g);
+  return {find_family("unnamed_comb"),
+          form.flank,
+          {double(every), double(first), degree(profile), degree(face), form.shape[kOpposite]}};
+}
+
 /// A wave of an order around the gear that is there, or larger, along a part of the flanks: work
 /// that three jaws grip at one end. Told in place of what runs along the flanks in waves of that
 /// order (products.cpp), and no candidate of its own.

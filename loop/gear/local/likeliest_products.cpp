@@ -494,8 +494,44 @@ std::vector<LikelyForms> LikeliestProducts::waves() const {
                                         scan);
 }
 
-std::vector<LikelyForms> LikeliestProducts::growing_waves() const {
-  return product_cells::likeliest_growing_waves(cells_->geometry, cells_->teeth);
+std::vector<LikelyForms> LikeliestProducts::growing_waves(int face) const {
+  constexpr double kFewestWaves = 2.0;
+  const FlankGeometry& g = cells_->geometry;
+  std::vector<gear_effects::AroundCourse> courses;
+  for (int first = 1; first <= g.teeth(); ++first)
+    for (const auto kind : {gear_effects::AroundCourse::kRamp, gear_effects::AroundCourse::kFade})
+      courses.push_back({kind, deg_from_rad(g.centre_rad(first))});
+  return product_cells::likeliest_waves_by(g, cells_->teeth, face, kFewestWaves, courses);
+}
+
+std::vector<LikelyForms> LikeliestProducts::combs(int face) const {
+  using namespace product_cells;
+  constexpr double kFewestWaves = 1.25;
+  const FlankGeometry& g = cells_->geometry;
+  const Arounds combs = combs_around(g);
+  std::vector<Likely> forms;
+  for (const FlankWay& way : cells_->ways)
+    for (const CourseInCells& course : face == 0 ? cells_->profiles : cells_->faces) {
+      if (course.course.kind == FlankCourse::kWhole) continue;
+      std::vector<Projection> of_teeth;
+      for (const auto& tooth : cells_->teeth) {
+        std::array<Projection, 2> sides;
+        for (const std::size_t side : {0U, 1U})
+          sides[side] = projected(face == 0 ? tooth[side].profile : tooth[side].face, course.values,
+                                  !cells_->scan);
+        of_teeth.push_back(together(sides, way));
+      }
+      Likely one = best_around(
+          g, combs, of_teeth, way.flank,
+          face == 0 ? shape_of(course.course, {}, way) : shape_of({}, course.course, way));
+      if (one.form.family != nullptr) forms.push_back(std::move(one));
+    }
+  std::vector<LikelyForms> lists = best_of(std::move(forms), kKindsOfAll);
+  for (LikelyForms& likely : lists)
+    for (Effect& form : likely.forms) form = gear_effects::as_plain_comb(g, form);
+  for (LikelyForms& waves : likeliest_waves_by(g, cells_->teeth, face, kFewestWaves, combs.courses))
+    lists.push_back(std::move(waves));
+  return lists;
 }
 
 LikelyWavesBeside LikeliestProducts::profile_waves(

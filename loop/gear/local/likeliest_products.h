@@ -65,7 +65,12 @@ class LikeliestProducts {
   [[nodiscard]] LikelyWavesBeside profile_waves(
       const std::vector<std::vector<Effect>>& besides) const;
   [[nodiscard]] std::vector<LikelyForms> waves() const;  ///< unnamed_crossed_waves
-  [[nodiscard]] std::vector<LikelyForms> growing_waves() const;  ///< unnamed_crossed_waves
+  /// Waves over the profile (0) or the face (1) that grow or fade from one tooth on, once around:
+  /// unnamed_crossed_waves.
+  [[nodiscard]] std::vector<LikelyForms> growing_waves(int face) const;
+  /// Courses and waves over the profile (0) or the face (1) of one tooth in so many:
+  /// unnamed_crossed_around, unnamed_crossed_waves and unnamed_comb.
+  [[nodiscard]] std::vector<LikelyForms> combs(int face) const;
   [[nodiscard]] std::vector<LikelyForms> of_order(
       const OrderAsked& asked) const;  ///< unnamed_crossed_order
 

@@ -99,11 +99,12 @@ LikelyWaves likely_waves(const FlankGeometry& g, const OfTeeth& teeth, const Fla
   return likely;
 }
 
-/// Those of all teeth that grow or fade evenly from one tooth on, once around.
-std::vector<Likely> growing_waves(const FlankGeometry& g, const OfTeeth& teeth, const FlankWay& way,
-                                  int face) {
+/// Those that go from tooth to tooth by one of these courses.
+std::vector<Likely> waves_by(const FlankGeometry& g, const OfTeeth& teeth, const FlankWay& way,
+                             int face, double fewest_waves,
+                             const std::vector<AroundCourse>& courses) {
   std::vector<Likely> likely;
-  for (double waves = kFewestWaves; waves <= kMostWaves; waves += kStepOfWaves) {
+  for (double waves = fewest_waves; waves <= kMostWaves; waves += kStepOfWaves) {
     std::vector<WaveSum> of_teeth(teeth.size());
     for (std::size_t i = 0; i < kProductCells; ++i)
       for (std::size_t t = 0; t < teeth.size(); ++t)
@@ -111,19 +112,17 @@ std::vector<Likely> growing_waves(const FlankGeometry& g, const OfTeeth& teeth, 
           if (way.signs[side] != 0.0)
             of_teeth[t].add(face == 0 ? teeth[t][side].profile[i] : teeth[t][side].face[i],
                             unit_in_cell(waves, i));
-    for (int first = 1; first <= g.teeth(); ++first)
-      for (const AroundCourse::Kind kind : {AroundCourse::kRamp, AroundCourse::kFade}) {
-        const AroundCourse course{kind, deg_from_rad(g.centre_rad(first))};
-        double c = 0.0, s = 0.0, weight = 0.0;
-        for (int tooth = 1; tooth <= g.teeth(); ++tooth) {
-          const double on = course.value(g, tooth);
-          const WaveSum& own = of_teeth[static_cast<std::size_t>(tooth - 1)];
-          c += on * own.c;
-          s += on * own.s;
-          weight += on * on * own.weight;
-        }
-        likely.push_back({gain_of(c, s, weight), wave_form(g, way, face, waves, {}, course)});
+    for (const AroundCourse& course : courses) {
+      double c = 0.0, s = 0.0, weight = 0.0;
+      for (int tooth = 1; tooth <= g.teeth(); ++tooth) {
+        const double on = course.value(g, tooth);
+        const WaveSum& own = of_teeth[static_cast<std::size_t>(tooth - 1)];
+        c += on * own.c;
+        s += on * own.s;
+        weight += on * on * own.weight;
       }
+      likely.push_back({gain_of(c, s, weight), wave_form(g, way, face, waves, {}, course)});
+    }
   }
   return likely;
 }
@@ -166,11 +165,12 @@ std::vector<LikelyForms> likeliest_waves(const FlankGeometry& g, const OfTeeth& 
   return lists;
 }
 
-std::vector<LikelyForms> likeliest_growing_waves(const FlankGeometry& g, const OfTeeth& teeth) {
+std::vector<LikelyForms> likeliest_waves_by(const FlankGeometry& g, const OfTeeth& teeth, int face,
+                                            double fewest_waves,
+                                            const std::vector<AroundCourse>& courses) {
   std::vector<LikelyForms> lists;
   for (const FlankWay& way : flank_ways(g))
-    for (const int face : {0, 1})
-      if (!way.opposite) add_lists(growing_waves(g, teeth, way, face), lists);
+    if (!way.opposite) add_lists(waves_by(g, teeth, way, face, fewest_waves, courses), lists);
   return lists;
 }
 

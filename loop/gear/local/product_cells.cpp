@@ -31,6 +31,33 @@ std::array<FlankWay, 4> flank_ways(const FlankGeometry& g) {
            {FlankChoice::kRight, false, {1.0 - first, first}}}};
 }
 
+namespace {
+
+void add_combs(const FlankGeometry& g, std::vector<AroundCourse>& courses) {
+  constexpr int kMostOfComb = 12, kFewestTeeth = 3;
+  for (int every = 2; every <= std::min(kMostOfComb, g.teeth() / kFewestTeeth); ++every)
+    for (int first = 1; first <= every; ++first)
+      courses.push_back(AroundCourse::comb(g, every, first));
+}
+
+void set_values(const FlankGeometry& g, Arounds& all) {
+  all.on_teeth.resize(std::ssize(all.courses), g.teeth());
+  for (Eigen::Index i = 0; i < all.on_teeth.rows(); ++i)
+    for (int tooth = 1; tooth <= g.teeth(); ++tooth)
+      all.on_teeth(i, tooth - 1) = all.courses[static_cast<std::size_t>(i)].value(g, tooth);
+  all.squares = all.on_teeth.cwiseAbs2();
+  all.beside_free_form = all.beside_motions = Eigen::ArrayXd::Ones(all.on_teeth.rows());
+}
+
+}  // namespace
+
+Arounds combs_around(const FlankGeometry& g) {
+  Arounds all;
+  add_combs(g, all.courses);
+  set_values(g, all);
+  return all;
+}
+
 Arounds arounds_of(const FlankGeometry& g) {
   constexpr int kFewest = 24, kMost = 96;
   const int directions = std::clamp(g.teeth(), kFewest, kMost);
@@ -42,16 +69,8 @@ Arounds arounds_of(const FlankGeometry& g) {
       all.courses.push_back(course);
     }
   }
-  constexpr int kMostOfComb = 12, kFewestTeeth = 3;
-  for (int every = 2; every <= std::min(kMostOfComb, g.teeth() / kFewestTeeth); ++every)
-    for (int first = 1; first <= every; ++first)
-      all.courses.push_back(AroundCourse::comb(g, every, first));
-  all.on_teeth.resize(std::ssize(all.courses), g.teeth());
-  for (Eigen::Index i = 0; i < all.on_teeth.rows(); ++i)
-    for (int tooth = 1; tooth <= g.teeth(); ++tooth)
-      all.on_teeth(i, tooth - 1) = all.courses[static_cast<std::size_t>(i)].value(g, tooth);
-  all.squares = all.on_teeth.cwiseAbs2();
-  all.beside_free_form = all.beside_motions = Eigen::ArrayXd::Ones(all.on_teeth.rows());
+  add_combs(g, all.courses);
+  set_values(g, all);
   for (Eigen::Index i = 0; i < all.on_teeth.rows(); ++i) {
     const AroundCourse& course = all.courses[static_cast<std::size_t>(i)];
     // (one tooth in so many that leans or is bowed: unnamed_comb)

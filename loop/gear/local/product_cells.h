@@ -68,6 +68,8 @@ struct Arounds {
   Eigen::ArrayXd beside_motions;    ///< 0 of one wave a turn, as what moves aside has it
 };
 [[nodiscard]] Arounds arounds_of(const FlankGeometry& geometry);
+/// One tooth in so many alone.
+[[nodiscard]] Arounds combs_around(const FlankGeometry& geometry);
 
 using OfTeeth = std::vector<std::array<OfFlank, 2>>;
 [[nodiscard]] OfTeeth sums_of(const FlankGeometry& geometry, const Observations& table,
@@ -81,9 +83,11 @@ using OfTeeth = std::vector<std::array<OfFlank, 2>>;
                                                        const std::vector<CourseInCells>& faces,
                                                        const Arounds& arounds, bool scan);
 
-/// Waves along one direction that grow or fade evenly from tooth to tooth, once around.
-[[nodiscard]] std::vector<LikelyForms> likeliest_growing_waves(const FlankGeometry& geometry,
-                                                               const OfTeeth& teeth);
+/// Waves along one direction that go from tooth to tooth by one of these courses.
+[[nodiscard]] std::vector<LikelyForms> likeliest_waves_by(const FlankGeometry& geometry,
+                                                          const OfTeeth& teeth, int face,
+                                                          double fewest_waves,
+                                                          const std::vector<AroundCourse>& courses);
 
 /// Waves over the profile that are the same on every tooth, beside the set of effects that leaves
 /// least with them.

@@ -163,8 +163,9 @@ std::vector<std::vector<Effect>> drifts_in_place_of(PartModel& model,
     std::vector<Effect> forms;
     if (zeros.empty())
       for (const auto& [square, first] : likeliest_beginnings(values, {}))
-        forms.push_back(
-            {find_family("unnamed_ramp"), flank, {double(first), profile, face, opposite}});
+        forms.push_back({find_family("unnamed_ramp"),
+                         flank,
+                         {double(first), profile, face, opposite, gear_effects::kMeanOfDrift}});
     else
       for (const auto& [pace, first] : likeliest_uneven(values))
         for (const double zero : zeros)
@@ -218,7 +219,69 @@ bool tell_mean_and_drift(PartModel& model, const CourseOverFlanks& course,
   return false;
 }
 
+/// A form about its mean, and the same from nothing at either end.
+struct Drifting {
+  std::vector<Effect> forms;
+  CourseOverFlanks course;
+  double opposite = 0.0;
+};
+Drifting from_nothing(const Effect& effect) {
+  const bool ramp = effect.family == find_family("unnamed_ramp"),
+             saw = effect.family == find_family("unnamed_saw"),
+             alternation = effect.family == find_family("unnamed_alternation");
+  if (!(ramp || saw || alternation)) return {};
+  const std::size_t course = ramp ? 1 : saw ? 2 : 0, zero = course + 3;
+  Drifting drifting{.forms = {},
+                    .course = {effect.shape[course], effect.shape[course + 1]},
+                    .opposite = effect.shape[course + 2]};
+  for (const bool first : {true, false}) {
+    Effect form = effect;
+    if (alternation) {
+      constexpr double kEvery = 2.0;
+      form.family = find_family("unnamed_comb");
+      form.shape.insert(form.shape.begin(), {kEvery, first ? 1.0 : 2.0});
+    } else if (form.shape[zero] == gear_effects::kMeanOfDrift) {
+      form.shape[zero] = first ? gear_effects::kFirstOfDrift : gear_effects::kLastOfDrift;
+    } else {
+      return {};
+    }
+    drifting.forms.push_back(std::move(form));
+  }
+  return drifting;
+}
+
 }  // namespace
+
+bool tell_from_nothing(PartModel& model) {
+  constexpr double kNothing = 9.0;  // chi-square
+  const double now = fit_of(model, model.effects)->residual_square();
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    const Effect& about_mean = model.effects[e];
+    const Drifting drifting = from_nothing(about_mean);
+    for (std::size_t level = first_told_here(model);
+         !drifting.forms.empty() && level < model.effects.size(); ++level) {
+      if (level == e || model.effects[level].flank != about_mean.flank ||
+          !is_level_of(model.geometry, model.effects[level], drifting.course, drifting.opposite))
+        continue;
+      std::vector<Effect> best;
+      double least = now + kNothing;
+      for (const Effect& form : drifting.forms) {
+        std::vector<Effect> with;
+        for (std::size_t k = 0; k < model.effects.size(); ++k)
+          if (k != e && k != level) with.push_back(model.effects[k]);
+        with.push_back(form);
+        const double left = fit_of(model, with)->residual_square();
+        if (left > least) continue;
+        least = left;
+        best = std::move(with);
+      }
+      if (best.empty()) continue;
+      put_in_place_of(model, {std::min(e, level), std::max(e, level)}, best);
+      return true;
+    }
+  }
+  return false;
+}
 
 bool tell_as_drift_aside(PartModel& model) {
   const CourseOverFlanks level;

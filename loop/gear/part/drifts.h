@@ -12,4 +12,8 @@ namespace trueflank::loop {
 /// odd teeth where it begins anew, have taken it up: together they are tried against it.
 [[nodiscard]] bool tell_as_drift(PartModel& model);
 
+/// What differs from tooth to tooth by turns or drifts, about a mean that all teeth have by another
+/// form or a name: the same from nothing, where that leaves as little. True where one was found.
+[[nodiscard]] bool tell_from_nothing(PartModel& model);
+
 }  // namespace trueflank::loop

@@ -7,8 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 #include <vector>
 
+#include "trueflank/loop/gear/local/likeliest_products.h"
+#include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/parts_of_forms.h"
@@ -150,6 +153,45 @@ bool tell_as_alternating_wave(PartModel& model) {
     if (put_one_form_for(model, these, waves)) return true;
   }
   return false;
+}
+
+std::vector<Effect> with_comb(const PartModel& model, std::vector<std::size_t>& these) {
+  constexpr double kClearly = 20.0;  // chi-square
+  std::vector<Effect> best;
+  double least = cost_of(model, model.effects) - kClearly;
+  for (const int face : {0, 1}) {
+    std::vector<std::size_t> all, alike, names;
+    for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+      const Effect& effect = model.effects[e];
+      const Runs runs = runs_of(model.geometry, effect, Flanks::kOfEither);
+      const NeedsToBeSeen needs = effect.needs();
+      const bool differs = runs == Runs::kOtherwise && !effect.family->is_of_one_tooth &&
+                           needs.along_profile == (face == 0) && needs.along_face == (face == 1);
+      const bool same = runs == (face == 0 ? Runs::kOverProfile : Runs::kOverFace);
+      if (!differs && !same) continue;
+      all.push_back(e);
+      if (same) alike.push_back(e);
+      if (same && effect.family->named) names.push_back(e);
+    }
+    if (all.size() < 2 || alike.size() == all.size()) continue;
+    for (const std::vector<std::size_t>& set : with_and_without(all, names)) {
+      std::vector<Effect> others;
+      for (std::size_t e = 0; e < model.effects.size(); ++e)
+        if (std::find(set.begin(), set.end(), e) == set.end()) others.push_back(model.effects[e]);
+      const LikeliestProducts likeliest(model.geometry, model.table, model.patches,
+                                        *fit_of(model, others)->residuals_um());
+      for (const LikelyForms& likely : likeliest.combs(face)) {
+        std::vector<Effect> with = one_form_for(model, set, likely.forms);
+        if (with.empty()) continue;
+        const double cost = cost_of(model, with);
+        if (!(cost < least)) continue;
+        least = cost;
+        best = std::move(with);
+        these = set;
+      }
+    }
+  }
+  return best;
 }
 
 void tell_ghosts_of_teeth(PartModel& model) {

@@ -15,6 +15,11 @@ namespace trueflank::loop {
 /// A wave over the profile whose sign changes from tooth to tooth (a cutter of two starts) is every
 /// other tooth's forms and orders that are half a multiple of the teeth.
 [[nodiscard]] bool tell_as_alternating_wave(PartModel& model);
+/// What one tooth in so many has along the profile or the face, a course or a wave, in place of
+/// what differs there from tooth to tooth and of what all teeth have: a machine's orders, every
+/// other tooth, and names that hold the mean. Empty where the data do not clearly show it.
+[[nodiscard]] std::vector<Effect> with_comb(const PartModel& model,
+                                            std::vector<std::size_t>& these);
 /// Orders that are a half or a third of the teeth's multiples, beside teeth that differ by turns or
 /// beside another such order, and orders near a multiple that are a slower wave's over the profile:
 /// no machine's.

@@ -6,6 +6,7 @@
 
 #include "trueflank/base/units.h"
 #include "trueflank/loop/gear/effects/along_flank.h"
+#include "trueflank/loop/gear/effects/columns.h"
 
 namespace trueflank::loop {
 
@@ -232,7 +233,9 @@ void add_repeating(int z, FlankChoice flank, double opposite,
   for (const int every : counts_between(kFewestTeeth, z / 2))
     for (int first = 1; first <= (z % every == 0 ? every : z); first += step_of(every))
       saws.push_back(
-          {find_family("unnamed_saw"), flank, {double(every), double(first), 0.0, 0.0, opposite}});
+          {find_family("unnamed_saw"),
+           flank,
+           {double(every), double(first), 0.0, 0.0, opposite, gear_effects::kMeanOfDrift}});
   sets.push_back(std::move(combs));
   sets.push_back(std::move(saws));
 }
@@ -293,7 +296,9 @@ void add_beginning(int z, const CourseOverFlanks& course, FlankChoice flank, dou
   if (u != 0.0 || v != 0.0)
     zeros.insert(zeros.end(), {gear_effects::kFirstOfDrift, gear_effects::kLastOfDrift});
   for (int first = 1; first <= z; ++first) {
-    ramps.push_back({find_family("unnamed_ramp"), flank, {double(first), u, v, opposite}});
+    ramps.push_back({find_family("unnamed_ramp"),
+                     flank,
+                     {double(first), u, v, opposite, gear_effects::kMeanOfDrift}});
     for (const double share : {0.06, 0.12, 0.25, 0.5})
       for (const double grows : {0.0, 1.0})
         for (const double zero : zeros)

@@ -75,7 +75,9 @@ std::vector<std::vector<Effect>> drifts_from_every_tooth(const FlankGeometry& ge
   constexpr double kNearlyEven = 1.5;  // of the teeth
   std::vector<std::vector<Effect>> drifts(2);
   for (int first = 1; first <= geometry.teeth(); ++first) {
-    drifts[0].push_back({find_family("unnamed_ramp"), flank, {double(first), 0.0, 0.0, opposite}});
+    drifts[0].push_back({find_family("unnamed_ramp"),
+                         flank,
+                         {double(first), 0.0, 0.0, opposite, gear_effects::kMeanOfDrift}});
     for (const double zero : {gear_effects::kFirstOfDrift, gear_effects::kLastOfDrift})
       for (const double share : {0.1, 0.25, 0.5, kNearlyEven})
         for (const double grows : {0.0, 1.0})

@@ -266,10 +266,8 @@ std::vector<Effect> with_growing_wave(const PartModel& model, std::vector<std::s
         if (std::find(set.begin(), set.end(), o) == set.end()) others.push_back(model.effects[o]);
       const LikeliestProducts likeliest(model.geometry, model.table, model.patches,
                                         *fit_of(model, others)->residuals_um());
-      for (const LikelyForms& likely : likeliest.growing_waves()) {
-        const EffectShape& shape = likely.forms.front().shape;
-        if (shape[0] != wave.shape[0] ||
-            std::abs(shape[1] - wave.shape[1]) > kSameLength * wave.shape[1])
+      for (const LikelyForms& likely : likeliest.growing_waves(static_cast<int>(wave.shape[0]))) {
+        if (std::abs(likely.forms.front().shape[1] - wave.shape[1]) > kSameLength * wave.shape[1])
           continue;
         std::vector<Effect> with = one_form_for(model, set, likely.forms, {}, kMoreValues);
         if (with.empty()) continue;

@@ -13,6 +13,7 @@
 #include "trueflank/base/units.h"
 #include "trueflank/loop/gear/local/section_waves.h"
 #include "trueflank/loop/gear/part/choice.h"
+#include "trueflank/loop/gear/part/fields.h"
 #include "trueflank/loop/gear/part/forms_of_runs.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/one_form.h"
@@ -230,6 +231,7 @@ bool take_up_whole_forms(PartModel& model) {
   if (with.empty()) with = with_one_side(model, these);
   if (with.empty()) with = with_reversal(model, these);
   if (with.empty()) with = with_products(model, these);
+  if (with.empty()) with = with_comb(model, these);
   if (with.empty()) with = with_growing_wave(model, these);
   if (with.empty()) with = with_phase_of_each_flank(model, these);
   if (with.empty()) {
