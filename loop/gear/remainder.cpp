@@ -29,6 +29,7 @@
 #include "trueflank/loop/gear/local/remainder_courses.h"
 #include "trueflank/loop/gear/local/rotation_waves.h"
 #include "trueflank/loop/gear/local/rough_flanks.h"
+#include "trueflank/loop/gear/local/slanted_ridges.h"
 #include "trueflank/loop/gear/paired_sums.h"
 #include "trueflank/loop/gear/remainder_around.h"
 #include "trueflank/loop/gear/remainder_values.h"
@@ -55,6 +56,8 @@ class RemainderSearch {
     auto rotation = begun_beside([this] { return wave_over_rotation(); });
     auto plane =
         begun_beside([this] { return likeliest_plane_wave(geometry_, table_, row_um_, used_); });
+    auto ridge =
+        begun_beside([this] { return likeliest_slanted_ridge(geometry_, table_, row_um_, used_); });
     values_ = gather_values(geometry_, table_, patches_, row_um_, which_, used_);
     tell_loud_traces();
     tell_rougher_teeth();
@@ -67,7 +70,7 @@ class RemainderSearch {
     for (RemainderFinding& finding : found_)
       finding.p_value = std::min(1.0, looks * finding.p_value);
     look_over_rotation(rotation.get());
-    look_over_the_plane(plane.get());
+    look_in_space(plane.get(), ridge.get());
     look_around();
     if (which_ == RemainderOf::kAll) look_at_single_teeth();
     std::erase_if(found_, [](const RemainderFinding& f) { return f.p_value > kRemainderLevel; });
@@ -537,12 +540,16 @@ class RemainderSearch {
                           .effect = Effect{&family, flank, {double(wave.order)}}});
   }
 
-  void look_over_the_plane(const std::optional<PlaneWave>& wave) {
+  void look_in_space(const std::optional<PlaneWave>& wave,
+                     const std::optional<SlantedRidge>& ridge) {
     constexpr double kLevel = 1e-6;  // (so much surer that it is no look of the others)
-    if (!wave || wave->p_value > kLevel) return;
-    add_form("unnamed_plane_wave", FlankChoice::kBoth,
-             {double(wave->along), double(wave->by), wave->wavelength_mm}, wave->p_value,
-             wave->amplitude_um, false, wave->square);
+    if (wave && wave->p_value <= kLevel)
+      add_form(std::isnan(wave->jump_mm) ? "unnamed_plane_wave" : "unnamed_plane_saw",
+               FlankChoice::kBoth, wave->shape(), wave->p_value, wave->amplitude_um, false,
+               wave->square);
+    if (ridge && ridge->p_value <= kLevel)
+      add_form("unnamed_slanted_ridge", ridge->form.flank, ridge->form.shape, ridge->p_value,
+               ridge->amount_um, false, ridge->square);
   }
 
   /// A dent in place of a sector, where it takes out more.

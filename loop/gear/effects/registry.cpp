@@ -71,6 +71,8 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_axis_kink(),
         unnamed_field(),
         unnamed_plane_wave(),
+        unnamed_plane_saw(),
+        unnamed_slanted_ridge(),
         unnamed_facing(),
         unnamed_facing_one_side(),
         unnamed_wobble(),

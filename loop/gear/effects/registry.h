@@ -104,6 +104,8 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_axis_kink();
 [[nodiscard]] EffectFamily unnamed_field();
 [[nodiscard]] EffectFamily unnamed_plane_wave();
+[[nodiscard]] EffectFamily unnamed_plane_saw();
+[[nodiscard]] EffectFamily unnamed_slanted_ridge();
 [[nodiscard]] EffectFamily unnamed_facing();
 [[nodiscard]] EffectFamily unnamed_facing_one_side();
 [[nodiscard]] EffectFamily unnamed_wobble();

@@ -11,6 +11,7 @@
 #include "trueflank/base/units.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/gear/effect.h"
+#include "trueflank/loop/gear/effects/along_flank.h"
 #include "trueflank/loop/gear/table/thinned_rows.h"
 
 namespace trueflank::loop {
@@ -19,7 +20,7 @@ namespace {
 /// Of a scan's many values so many tell as much as is asked.
 constexpr std::size_t kRowsAsked = 3000, kFewestRowsAsked = 400;
 /// Waves over the width of the gear: from ... in steps of ... to.
-constexpr double kFewestPlaneWaves = 0.5, kPlaneStep = 0.25, kMostPlaneWaves = 30.0;
+constexpr double kFewestPlaneWaves = 0.5, kPlaneStep = 0.25, kMostPlaneWaves = 120.0;
 
 /// Values at places, with the share of a shift along x and y that they see.
 struct PlaneValues {
@@ -101,6 +102,36 @@ std::array<std::vector<PlaneGain>, 2> plane_gains(const PlaneValues& values, int
   return found;
 }
 
+/// A sawtooth of nearly the wavelength in place of a wave, where it says clearly more.
+void tell_as_saw(const PlaneValues& values, double width_mm, PlaneWave& wave) {
+  constexpr double kClearlyMore = 1.25;
+  constexpr int kPhases = 48, kPeriods = 6;
+  const auto along = static_cast<std::size_t>(wave.along), by = static_cast<std::size_t>(wave.by);
+  double best = kClearlyMore * wave.square;
+  const PlaneWave as_wave = wave;
+  for (int k = -kPeriods; k <= kPeriods; ++k) {
+    // (over the gear a phase of a fraction of a period)
+    constexpr double kStep = 0.04;
+    const double period = 1.0 / (1.0 / as_wave.wavelength_mm + k * kStep / width_mm);
+    for (int phase = 0; phase < kPhases; ++phase) {
+      const double jump = period * phase / kPhases;
+      double product = 0.0, square = 0.0;
+      for (std::size_t i = 0; i < values.um.size(); ++i) {
+        const double b =
+            values.normal[along][i] * gear_effects::sawtooth(values.at_mm[by][i] - jump, period);
+        product += b * values.um[i];
+        square += b * b;
+      }
+      if (!(square > 0.0) || product * product / square <= best) continue;
+      best = product * product / square;
+      wave.square = best;
+      wave.wavelength_mm = period;
+      wave.jump_mm = jump;
+      wave.amplitude_um = std::abs(product / square);
+    }
+  }
+}
+
 }  // namespace
 
 std::optional<PlaneWave> likeliest_plane_wave(const FlankGeometry& geometry,
@@ -157,8 +188,9 @@ std::optional<PlaneWave> likeliest_plane_wave(const FlankGeometry& geometry,
   found.wavelength_mm =
       width_mm / (std::max(first, step) + step * static_cast<double>(finest - finer.begin()));
   found.amplitude_um = finest->amplitude_um;
-  found.square =
-      finest->square * static_cast<double>(values.rows) / static_cast<double>(values.um.size());
+  found.square = finest->square;
+  tell_as_saw(values, width_mm, found);
+  found.square *= static_cast<double>(values.rows) / static_cast<double>(values.um.size());
   return found;
 }
 

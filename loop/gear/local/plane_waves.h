@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
+#include "trueflank/loop/gear/effect.h"
 #include "trueflank/loop/gear/observations.h"
 
 // Waves over a coordinate of the plane, by which everything that stands there is shifted.
@@ -16,12 +18,21 @@ struct PlaneWave {
   double p_value = 1.0;  ///< corrected for both shifts, both coordinates and all wavelengths
   double square = 0.0;   ///< squares that it takes out of all rows
   double amplitude_um = 0.0;
+  /// Where one of its jumps stands, of a sawtooth, whose amount is from jump to jump; NaN: of a
+  /// wave.
+  double jump_mm = kNaN;
+
+  [[nodiscard]] EffectShape shape() const {
+    EffectShape values{double(along), double(by), wavelength_mm};
+    if (!std::isnan(jump_mm)) values.push_back(jump_mm);
+    return values;
+  }
 };
 
-/// The likeliest wave in scanned flanks, from twice the gear to a fifteenth of its radius, judged
+/// The likeliest wave in scanned flanks, from twice the gear to a sixtieth of its radius, judged
 /// against waves of other lengths of the same shift: what hangs together otherwise is none. None
-/// where another of another length is nearly as strong. `row_um`: residuals of the table's rows;
-/// `used`: which rows are looked at.
+/// where another of another length is nearly as strong. A sawtooth, where that says clearly more.
+/// `row_um`: residuals of the table's rows; `used`: which rows are looked at.
 [[nodiscard]] std::optional<PlaneWave> likeliest_plane_wave(const FlankGeometry& geometry,
                                                             const Observations& table,
                                                             const std::vector<float>& row_um,
