@@ -70,6 +70,8 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_bow(),
         unnamed_axis_kink(),
         unnamed_field(),
+        unnamed_cut_order(),
+        unnamed_changing_wave(),
         unnamed_plane_wave(),
         unnamed_plane_saw(),
         unnamed_slanted_ridge(),

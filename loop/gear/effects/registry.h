@@ -103,6 +103,10 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_bow();
 [[nodiscard]] EffectFamily unnamed_axis_kink();
 [[nodiscard]] EffectFamily unnamed_field();
+[[nodiscard]] EffectFamily unnamed_cut_order();
+/// True where steps of so many teeth come to every tooth before they come around.
+[[nodiscard]] bool can_be_cut_in_steps(int teeth, int step);
+[[nodiscard]] EffectFamily unnamed_changing_wave();
 [[nodiscard]] EffectFamily unnamed_plane_wave();
 [[nodiscard]] EffectFamily unnamed_plane_saw();
 [[nodiscard]] EffectFamily unnamed_slanted_ridge();

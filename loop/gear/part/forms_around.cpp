@@ -188,16 +188,22 @@ std::vector<RemainderFinding> forms_around(const PartModel& model, const CourseO
       forms_from_tooth_to_tooth(model.geometry.teeth(), course);
   constexpr std::size_t kMovedEach = 4;  // and where each could come to
   std::size_t tried = 0;
-  for (const std::vector<Effect>& set : sets) tried += kMovedEach * set.size() * beside.size();
+  // (forms of which there are far more are no looks of the others)
+  const auto is_of_many = [](const std::vector<Effect>& set) {
+    return set.front().family == find_family("unnamed_cut_order") ||
+           set.front().family == find_family("unnamed_changing_wave");
+  };
+  for (const std::vector<Effect>& set : sets)
+    if (!is_of_many(set)) tried += kMovedEach * set.size() * beside.size();
   tried += beside.size() * patterns_tried(model.geometry.teeth());
   // Both flanks of a tooth may share their error: a value a tooth.
   const double none = fit_of(model, rest)->residual_square();
   const double count = fit_of(model, rest)->observations();
-  const auto chance = [none, teeth, tried](double square, int values) {
+  const auto chance = [none, teeth](double square, int values, std::size_t looks) {
     const double degrees = teeth - values - 1.0;
     if (!(degrees > 0.0)) return 1.0;
     const double f = (none - square) / values / (std::max(square, 1e-12 * none) / degrees);
-    return std::min(1.0, static_cast<double>(tried) * f_tail(f, values, degrees));
+    return std::min(1.0, static_cast<double>(looks) * f_tail(f, values, degrees));
   };
   std::vector<std::pair<double, RemainderFinding>> found;
   for (const std::vector<Effect>& set : sets) {
@@ -225,7 +231,9 @@ std::vector<RemainderFinding> forms_around(const PartModel& model, const CourseO
       const double cost = cost_around(model.geometry, count, square, with);
       if (cost >= best.first) continue;
       best.first = cost;
-      best.second.p_value = chance(square, values_of({form}, true) + values_of(names, true));
+      best.second.p_value =
+          chance(square, values_of({form}, true) + values_of(names, true),
+                 is_of_many(set) ? kMovedEach * set.size() * beside.size() : tried);
       best.second.effect = std::move(form);
     }
     if (best.second.effect) found.push_back(std::move(best));
@@ -244,8 +252,8 @@ std::vector<RemainderFinding> forms_around(const PartModel& model, const CourseO
         for (FittedPattern& pattern : patterns_beside(model, with, flank, opposite, least)) {
           if (pattern.cost >= best.first) continue;
           best.first = pattern.cost;
-          best.second.p_value =
-              chance(pattern.square, values_of({pattern.form}, true) + values_of(names, true));
+          best.second.p_value = chance(
+              pattern.square, values_of({pattern.form}, true) + values_of(names, true), tried);
           best.second.effect = std::move(pattern.form);
         }
       }

@@ -7,6 +7,7 @@
 #include "trueflank/base/units.h"
 #include "trueflank/loop/gear/effects/along_flank.h"
 #include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/effects/registry.h"
 
 namespace trueflank::loop {
 
@@ -282,6 +283,37 @@ void add_of_some_teeth(int z, const CourseOverFlanks& course, FlankChoice flank,
   sets.push_back(std::move(stairs));
 }
 
+/// Drifts from cut to cut of teeth that are not cut one beside the other.
+std::vector<Effect> cut_orders(int z, FlankChoice flank, double opposite) {
+  constexpr int kMostSteps = 40;
+  std::vector<Effect> forms;
+  // (steps of so many teeth less go the other way around)
+  for (int step = 2; 2 * step < z && step <= kMostSteps; ++step)
+    for (int first = 1; gear_effects::can_be_cut_in_steps(z, step) && first <= z; ++first)
+      forms.push_back(
+          {find_family("unnamed_cut_order"), flank, {double(step), double(first), opposite, 0.0}});
+  return forms;
+}
+
+/// Waves that grow, fade or die away from one tooth on.
+std::vector<Effect> changing_waves(int z, FlankChoice flank, double opposite) {
+  constexpr int kPlaces = 12, kPlacesOfDying = 30, kMostPeriods = 30;
+  constexpr double kFewest = 2.0;
+  std::vector<Effect> forms;
+  const auto add = [&](double periods, int first, double course, double within) {
+    forms.push_back({find_family("unnamed_changing_wave"),
+                     flank,
+                     {periods, double(first), course, within, opposite}});
+  };
+  for (double periods = kFewest; 3.0 * periods <= z && periods <= kMostPeriods; periods += 1.0) {
+    for (int first = 1; first <= z; first += std::max(1, z / kPlaces))
+      for (const double course : {0.0, 1.0}) add(periods, first, course, z);
+    for (int first = 1; first <= z; first += std::max(1, z / kPlacesOfDying))
+      for (const double share : {0.08, 0.2}) add(periods, first, 2.0, share * z);
+  }
+  return forms;
+}
+
 /// Sectors and drifts: what begins at one tooth.
 void add_beginning(int z, const CourseOverFlanks& course, FlankChoice flank, double opposite,
                    std::vector<std::vector<Effect>>& sets) {
@@ -335,6 +367,10 @@ std::vector<std::vector<Effect>> forms_from_tooth_to_tooth(int teeth,
       add_beginning(teeth, course, flank, opposite, sets);
       add_of_some_teeth(teeth, course, flank, opposite, sets);
       if (heights) add_repeating(teeth, flank, opposite, sets);
+      if (heights && flank == FlankChoice::kBoth) {
+        sets.push_back(cut_orders(teeth, flank, opposite));
+        sets.push_back(changing_waves(teeth, flank, opposite));
+      }
     }
     if (!heights) continue;
     sets.push_back(dents_around(teeth, flank));

@@ -60,8 +60,8 @@ struct CourseOverFlanks {
 inline constexpr int kMostOfComb = 8;  ///< one tooth in so many, at most
 
 /// Forms that go from tooth to tooth, at every place: sectors and drifts of a course; of heights
-/// also dents, saws, combs, swellings; alike or opposite on both flanks, or of one. Those of a set
-/// differ by their shape alone, and have as many columns.
+/// also dents, saws, combs, swellings, orders of cutting, waves that change; alike or opposite on
+/// both flanks, or of one. Those of a set differ by their shape alone, and have as many columns.
 [[nodiscard]] std::vector<std::vector<Effect>> forms_from_tooth_to_tooth(
     int teeth, const CourseOverFlanks& course);
 

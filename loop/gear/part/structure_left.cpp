@@ -66,17 +66,32 @@ WhatIsLeft what_is_left(const PartModel& model) {
   return left;
 }
 
+namespace {
+
+/// What is told of a remainder: the surest, or another that is far larger and as good as certain.
+const RemainderFinding& most_telling(const std::vector<RemainderFinding>& remainder) {
+  constexpr double kFarLarger = 3.0, kSure = 1e-4;
+  const RemainderFinding* told = &remainder.front();
+  for (const RemainderFinding& finding : remainder)
+    if (finding.p_value < kSure &&
+        std::abs(finding.amount_um) > kFarLarger * std::abs(told->amount_um))
+      told = &finding;
+  return *told;
+}
+
+}  // namespace
+
 double structure_left_p_value(const PartModel& model) {
   return model.remainder.empty()
              ? model.discovery.p_left
-             : std::min(model.discovery.p_left, model.remainder.front().p_value);
+             : std::min(model.discovery.p_left, most_telling(model.remainder).p_value);
 }
 
 std::string structure_left(const PartModel& model) {
   if (neighbours_share(model))
     return words_for(model.neighbours) +
-           (model.remainder.empty() ? "" : "; and " + model.remainder.front().text);
-  if (!model.remainder.empty()) return model.remainder.front().text;
+           (model.remainder.empty() ? "" : "; and " + most_telling(model.remainder).text);
+  if (!model.remainder.empty()) return most_telling(model.remainder).text;
   if (model.denied_spot)
     return words_for(model.geometry, *model.denied_spot) +
            ", which the values held out do not bear out";

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Waves from tooth to tooth whose size changes: they grow or fade once around, or ring and die
+// away.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "trueflank/base/number_text.h"
+#include "trueflank/base/units.h"
+#include "trueflank/loop/gear/effects/along_flank.h"
+#include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/effects/registry.h"
+
+namespace trueflank::loop::gear_effects {
+namespace {
+
+/// Shape values: periods a turn; where it begins; how it goes on; within how many teeth it dies
+/// away; opposite on the flanks.
+enum ChangingWave : std::size_t { kPeriods, kFirstTooth, kCourse, kWithin, kOppositeFlanks };
+constexpr double kGrows = 0.0, kFades = 1.0, kDies = 2.0;
+
+}  // namespace
+
+EffectFamily unnamed_changing_wave() {
+  EffectFamily f = described("unnamed_changing_wave", {"periods_per_turn", "first_tooth", "course",
+                                                       "within_teeth", "opposite_flanks"});
+  f.columns = [](const EffectShape&) { return 2; };
+  set_columns(f, {[](const FlankGeometry& g, int tooth, const EffectShape& shape, double* factors) {
+                    const double since = teeth_since(g, tooth, shape[kFirstTooth]), z = g.teeth(),
+                                 angle = kTwoPi * shape[kPeriods] * since / z;
+                    const double course = shape[kCourse];
+                    const double size = course == kGrows   ? since / (z - 1.0)
+                                        : course == kFades ? 1.0 - since / (z - 1.0)
+                                                           : std::exp(-since / shape[kWithin]);
+                    factors[0] = size * std::cos(angle);
+                    factors[1] = size * std::sin(angle);
+                  },
+                  [](const FlankGeometry&, const Place& p, const EffectShape& shape) {
+                    return shape[kOppositeFlanks] != 0.0 ? static_cast<double>(p.side) : 1.0;
+                  }});
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes;
+    const auto add = [&](std::size_t k, double value) {
+      shapes.push_back(shape);
+      shapes.back()[k] = value;
+    };
+    for (const double off : {-2.0, -1.0, 1.0, 2.0})
+      add(kFirstTooth, std::fmod(shape[kFirstTooth] - 1.0 + off + g.teeth(), g.teeth()) + 1.0);
+    if (shape[kCourse] != kDies) return shapes;
+    for (const double off : {-0.5, -0.2, -0.07, 0.07, 0.2, 0.5})
+      if (shape[kPeriods] + off > 1.0) add(kPeriods, shape[kPeriods] + off);
+    for (const double times : {0.7, 0.87, 1.15, 1.43})
+      add(kWithin, std::clamp(times * shape[kWithin], 2.0, 1.0 * g.teeth()));
+    return shapes;
+  };
+  f.values_sought = [](const EffectShape& shape) { return shape[kCourse] == kDies ? 2 : 0; };
+  f.term_keys = {number("periods_per_turn"),
+                 {"first_tooth"},
+                 {"course", TermKey::Kind::kWord, {"grows", "fades", "dies_away"}},
+                 number("within_teeth"),
+                 {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}}};
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const double course = shape[kCourse];
+    return printed("from tooth %.0f on", shape[kFirstTooth]) +
+           (course == kDies ? "" : ", once around,") + " the teeth stand " +
+           (shape[kOppositeFlanks] != 0.0 ? "ahead and behind" : "high and low") +
+           printed(" in waves of %.3g a turn", shape[kPeriods]) +
+           (course == kGrows ? " that grow evenly from nothing"
+            : course == kFades
+                ? " that fade evenly to nothing"
+                : printed(" that die away, to a third within %.2g teeth", shape[kWithin]) +
+                      ", as where something rings after a knock");
+  };
+  return f;
+}
+
+}  // namespace trueflank::loop::gear_effects

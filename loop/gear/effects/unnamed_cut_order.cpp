@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Teeth that were not cut one beside the other: a drift from cut to cut jumps from tooth to tooth.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "trueflank/base/number_text.h"
+#include "trueflank/loop/gear/effects/along_flank.h"
+#include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/effects/sign_words.h"
+
+namespace trueflank::loop::gear_effects {
+namespace {
+
+/// Shape values: by how many teeth each cut lies on from the last one; the first tooth; opposite on
+/// the flanks; within how many cuts the drift levels off (0: it is even).
+enum CutOrder : std::size_t { kStep, kFirstTooth, kOppositeFlanks, kWithin };
+
+/// How many cuts one tooth lies on from the tooth before it; the step and the number of teeth have
+/// no common divisor.
+int cuts_from_tooth_to_tooth(int teeth, int step) {
+  // (the extended Euclidean algorithm: the inverse of the step)
+  int a = step % teeth, b = teeth, x = 1, y = 0;
+  while (a > 1) {
+    const int q = a / b, rest = a % b;
+    a = b;
+    b = rest;
+    const int next = x - q * y;
+    x = y;
+    y = next;
+  }
+  return ((x % teeth) + teeth) % teeth;
+}
+/// Which cut a tooth is, from 0 on.
+int cut_of(int teeth, int step, int since) {
+  return static_cast<int>(static_cast<long long>(since) * cuts_from_tooth_to_tooth(teeth, step) %
+                          teeth);
+}
+
+/// From 0 on the first tooth to 1 on the last one, about its mean.
+double drift_at(int teeth, int cut, double within) {
+  const double last = teeth - 1.0;
+  if (within == 0.0) return cut / last - 0.5;
+  const double whole = -std::expm1(-last / within);
+  const double mean =
+      (1.0 - std::expm1(-teeth / within) / (teeth * std::expm1(-1.0 / within))) / whole;
+  return -std::expm1(-cut / within) / whole - mean;
+}
+
+}  // namespace
+
+EffectFamily unnamed_cut_order() {
+  EffectFamily f = described("unnamed_cut_order",
+                             {"step_teeth", "first_tooth", "opposite_flanks", "within_cuts"});
+  set_columns(f, {[](const FlankGeometry& g, int tooth, const EffectShape& shape, double* factor) {
+                    factor[0] = drift_at(g.teeth(),
+                                         cut_of(g.teeth(), static_cast<int>(shape[kStep]),
+                                                teeth_since(g, tooth, shape[kFirstTooth])),
+                                         shape[kWithin]);
+                  },
+                  [](const FlankGeometry&, const Place& p, const EffectShape& shape) {
+                    return shape[kOppositeFlanks] != 0.0 ? static_cast<double>(p.side) : 1.0;
+                  }});
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes;
+    for (const double share : {0.0, 0.15, 0.25, 0.4, 0.7})
+      if (share * g.teeth() != shape[kWithin]) {
+        shapes.push_back(shape);
+        shapes.back()[kWithin] = share * g.teeth();
+      }
+    return shapes;
+  };
+  f.values_sought = [](const EffectShape& shape) { return shape[kWithin] != 0.0 ? 1 : 0; };
+  f.term_keys = {{"step_teeth"},
+                 {"first_tooth"},
+                 {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}},
+                 number("within_cuts")};
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const int z = told.geometry.teeth(), step = static_cast<int>(shape[kStep]),
+              first = static_cast<int>(shape[kFirstTooth]);
+    const bool aside = shape[kOppositeFlanks] != 0.0;
+    const int sign = told.sign();
+    // A drift that begins anew so many times a turn, at no whole number of teeth, is the same.
+    const int cuts = cuts_from_tooth_to_tooth(z, step), times = std::min(cuts, z - cuts);
+    if (times < step && shape[kWithin] == 0.0) {
+      const int along = cuts == times ? sign : -sign;
+      return std::string("the ") + (aside ? "place of the teeth" : "height of the flanks") +
+             " drifts evenly" +
+             (sign == 0 ? ""
+              : aside   ? std::string(", ") + turned(along)
+                        : std::string(along > 0 ? ", towards more material"
+                                                : ", towards less material")) +
+             printed(", and begins anew %d times a turn", times) +
+             printed(", every %.3g teeth", static_cast<double>(z) / times) +
+             printed(", first at tooth %d", first);
+    }
+    return std::string("the ") + (aside ? "place of the teeth" : "height of the flanks") +
+           " drifts from cut to cut" + (shape[kWithin] != 0.0 ? " and levels off" : "") +
+           (sign == 0 ? ""
+            : aside
+                ? std::string(", ") + turned(sign)
+                : std::string(sign > 0 ? ", towards more material" : ", towards less material")) +
+           printed(", where teeth are cut in steps of %d", step) + printed(": tooth %d", first) +
+           printed(", then %d", (first - 1 + step) % z + 1) +
+           printed(", %d and so on", (first - 1 + 2 * step) % z + 1) +
+           ", as from a tool that wears or a machine that warms up";
+  };
+  return f;
+}
+
+bool can_be_cut_in_steps(int teeth, int step) { return std::gcd(teeth, step) == 1; }
+
+}  // namespace trueflank::loop::gear_effects
