@@ -67,6 +67,42 @@ std::vector<Effect> with_pair_for(const PartModel& model, const std::vector<std:
   return with;
 }
 
+/// What may be pieces of one wave over the profile (0) or the face (1) that changes from tooth to
+/// tooth: each wave that has no name, all of them, with orders of a machine, and all that has no
+/// name, or a place, and runs there; and the lengths of these waves, if any.
+struct SetsOfAWave {
+  std::vector<std::vector<std::size_t>> sets;
+  std::vector<double> lengths_mm;
+};
+SetsOfAWave sets_of_a_wave(const PartModel& model, int face) {
+  SetsOfAWave found;
+  std::vector<std::size_t> waves, with_orders, all;
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    const Effect& effect = model.effects[e];
+    const NeedsToBeSeen needs = effect.needs();
+    const bool order = effect.order() > 0.0 && (needs.along_profile || needs.along_face);
+    const bool wave = (effect.family == find_family("unnamed_waviness") ||
+                       effect.family == find_family("unnamed_crossed_waves")) &&
+                      effect.shape[0] == face;
+    const bool runs_there = (!effect.family->named || effect.family->shape_is_continuous) &&
+                            needs.along_profile == (face == 0) && needs.along_face == (face == 1);
+    if (wave) {
+      waves.push_back(e);
+      found.lengths_mm.push_back(effect.shape[1]);
+      found.sets.push_back({e});
+    }
+    if (wave || order) with_orders.push_back(e);
+    if (wave || order || runs_there) all.push_back(e);
+  }
+  // (crests and hollows may stand for a wave)
+  if (waves.empty() && all.size() < 2) return found;
+  if (waves.empty()) return {.sets = {all}, .lengths_mm = {}};
+  for (const std::vector<std::size_t>* set : {&waves, &with_orders, &all})
+    if (std::find(found.sets.begin(), found.sets.end(), *set) == found.sets.end())
+      found.sets.push_back(*set);
+  return found;
+}
+
 }  // namespace
 
 WaveAcross wave_across(const FlankGeometry& geometry, const Effect& effect, int side) {
@@ -244,30 +280,22 @@ std::vector<Effect> with_wave_of_the_tool(const PartModel& model, std::vector<st
 std::vector<Effect> with_growing_wave(const PartModel& model, std::vector<std::size_t>& these) {
   constexpr double kSameLength = 0.15, kClearly = 30.0;  // kClearly: chi-square
   constexpr int kMoreValues = 2;
-  std::vector<std::size_t> orders;
-  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e)
-    if (model.effects[e].order() > 0.0 &&
-        (model.effects[e].needs().along_profile || model.effects[e].needs().along_face))
-      orders.push_back(e);
   std::vector<Effect> best;
   double least = cost_of(model, model.effects) - kClearly;
-  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
-    const Effect& wave = model.effects[e];
-    if (wave.family != find_family("unnamed_waviness")) continue;
-    std::vector<std::vector<std::size_t>> sets{{e}};
-    if (!orders.empty()) {
-      sets.push_back(orders);
-      sets.back().push_back(e);
-      std::sort(sets.back().begin(), sets.back().end());
-    }
-    for (const std::vector<std::size_t>& set : sets) {
+  for (const int face : {0, 1}) {
+    const SetsOfAWave sets = sets_of_a_wave(model, face);
+    for (const std::vector<std::size_t>& set : sets.sets) {
       std::vector<Effect> others;
-      for (std::size_t o = 0; o < model.effects.size(); ++o)
-        if (std::find(set.begin(), set.end(), o) == set.end()) others.push_back(model.effects[o]);
+      for (std::size_t e = 0; e < model.effects.size(); ++e)
+        if (std::find(set.begin(), set.end(), e) == set.end()) others.push_back(model.effects[e]);
       const LikeliestProducts likeliest(model.geometry, model.table, model.patches,
                                         *fit_of(model, others)->residuals_um());
-      for (const LikelyForms& likely : likeliest.growing_waves(static_cast<int>(wave.shape[0]))) {
-        if (std::abs(likely.forms.front().shape[1] - wave.shape[1]) > kSameLength * wave.shape[1])
+      for (const LikelyForms& likely : likeliest.growing_waves(face)) {
+        const double length_mm = likely.forms.front().shape[1];
+        if (!sets.lengths_mm.empty() &&
+            std::none_of(sets.lengths_mm.begin(), sets.lengths_mm.end(), [&](double own_mm) {
+              return std::abs(length_mm - own_mm) < kSameLength * own_mm;
+            }))
           continue;
         std::vector<Effect> with = one_form_for(model, set, likely.forms, {}, kMoreValues);
         if (with.empty()) continue;
