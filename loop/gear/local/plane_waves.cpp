@@ -18,9 +18,9 @@ namespace trueflank::loop {
 namespace {
 
 /// Of a scan's many values so many tell as much as is asked.
-constexpr std::size_t kRowsAsked = 3000, kFewestRowsAsked = 400;
+constexpr std::size_t kRowsAsked = 2000, kFewestRowsAsked = 400;
 /// Waves over the width of the gear: from ... in steps of ... to.
-constexpr double kFewestPlaneWaves = 0.5, kPlaneStep = 0.25, kMostPlaneWaves = 120.0;
+constexpr double kFewestPlaneWaves = 0.5, kPlaneStep = 0.25, kMostPlaneWaves = 80.0;
 
 /// Values at places, with the share of a shift along x and y that they see.
 struct PlaneValues {
@@ -189,7 +189,8 @@ std::optional<PlaneWave> likeliest_plane_wave(const FlankGeometry& geometry,
       width_mm / (std::max(first, step) + step * static_cast<double>(finest - finer.begin()));
   found.amplitude_um = finest->amplitude_um;
   found.square = finest->square;
-  tell_as_saw(values, width_mm, found);
+  constexpr double kSure = 1e-3;
+  if (found.p_value < kSure) tell_as_saw(values, width_mm, found);
   found.square *= static_cast<double>(values.rows) / static_cast<double>(values.um.size());
   return found;
 }

@@ -42,46 +42,53 @@ struct RidgeCells {
 /// What hangs together in cells, in squares beyond their mean, and the variance of single values.
 struct RidgesIn {
   double sum = 0.0, count = 0.0, structure = 0.0, variance = 0.0;
+  double filled = 0.0;  ///< cells
+
+  /// Far more than chance leaves in so many cells.
+  [[nodiscard]] bool is_clear() const {
+    constexpr double kErrors = 6.0;
+    return variance > 0.0 && structure > kErrors * std::sqrt(2.0 * filled) * variance;
+  }
 };
 RidgesIn ridges_in(const RidgeCells& cells) {
   RidgesIn all;
-  double between = 0.0, filled = 0.0;
+  double between = 0.0;
   for (const auto& column : cells.of)
     for (const RidgeCell& cell : column) {
       if (!(cell.count > 0.0)) continue;
       all.sum += cell.sum;
       all.count += cell.count;
       between += cell.sum * cell.sum / cell.count;
-      filled += 1.0;
+      all.filled += 1.0;
     }
-  if (!(all.count > filled)) return {};
-  all.variance = std::max(0.0, cells.square - between) / (all.count - filled);
-  all.structure = between - all.sum * all.sum / all.count - filled * all.variance;
+  if (!(all.count > all.filled)) return {};
+  all.variance = std::max(0.0, cells.square - between) / (all.count - all.filled);
+  all.structure = between - all.sum * all.sum / all.count - all.filled * all.variance;
   return all;
 }
 
 /// Sums of values and weights in a ridge of a width about every place across and height.
 class RidgeSums {
  public:
-  /// Heights from below the face to above it.
-  static constexpr std::size_t kPlaces = 192;
-  static constexpr double kLow = -0.25, kStep = 1.5 / kPlaces;
+  /// Heights in cells, from below the face to above it.
+  static constexpr int kCells = static_cast<int>(kRidgeHeights), kBeyond = kCells / 4,
+                       kPlaces = kCells + 2 * kBeyond;
 
   RidgeSums(const RidgeCells& cells, double width) {
+    const int reach = static_cast<int>(std::ceil(2.5 * width * kCells));
+    std::vector<double> bells;
+    for (int off = 0; off <= reach; ++off)
+      bells.push_back(std::exp(-std::pow(off / (width * kCells), 2)));
     for (std::size_t x = 0; x < kRidgeAcross; ++x)
-      for (std::size_t place = 0; place < kPlaces; ++place) {
-        const double at = kLow + (static_cast<double>(place) + 0.5) * kStep;
-        At& here = at_[x][place];
-        const double reach = 2.5 * width;
-        const auto first =
-            static_cast<std::size_t>(std::max(0.0, std::floor((at - reach) * kRidgeHeights)));
-        for (std::size_t v = first; v < kRidgeHeights; ++v) {
-          const double off = (static_cast<double>(v) + 0.5) / kRidgeHeights - at;
-          if (off > reach) break;
-          const double b = std::exp(-off * off / (width * width));
-          here.product += b * cells.of[x][v].sum;
-          here.first += b * cells.of[x][v].count;
-          here.square += b * b * cells.of[x][v].count;
+      for (int place = 0; place < kPlaces; ++place) {
+        const int at = place - kBeyond;
+        At& here = at_[x][static_cast<std::size_t>(place)];
+        for (int v = std::max(0, at - reach); v <= std::min(kCells - 1, at + reach); ++v) {
+          const RidgeCell& cell = cells.of[x][static_cast<std::size_t>(v)];
+          const double b = bells[static_cast<std::size_t>(std::abs(v - at))];
+          here.product += b * cell.sum;
+          here.first += b * cell.count;
+          here.square += b * b * cell.count;
         }
       }
   }
@@ -96,7 +103,7 @@ class RidgeSums {
   };
   /// At a share of the face; nothing far off it.
   [[nodiscard]] At at(std::size_t x, double height) const {
-    const double place = (height - kLow) / kStep;
+    const double place = height * kCells + kBeyond;
     if (!(place >= 0.0) || place >= kPlaces) return {};
     return at_[x][static_cast<std::size_t>(place)];
   }
@@ -125,7 +132,7 @@ struct RidgeLine {
 /// The best line over the profile; `level`: of those that are not aslant.
 RidgeLine best_ridge_over_profile(const RidgeSums& sums, double width, const RidgesIn& all,
                                   bool level) {
-  constexpr double kStep = 0.05, kMost = 2.5, kFewest = 2.0, kHeightStep = 0.015;
+  constexpr double kStep = 0.05, kMost = 2.5, kFewest = 2.0, kHeightStep = 0.02;
   RidgeLine best{.width = width};
   const int most = level ? 0 : static_cast<int>(kMost / kStep);
   for (int k = -most; k <= most; ++k) {
@@ -144,7 +151,7 @@ RidgeLine best_ridge_over_profile(const RidgeSums& sums, double width, const Rid
 
 /// The best line around the gear.
 RidgeLine best_ridge_around(const RidgeSums& sums, double width, const RidgesIn& all) {
-  constexpr double kLeast = 0.1, kMost = 3.0, kTimes = 1.02, kHeightStep = 0.02, kApart = 3.5;
+  constexpr double kLeast = 0.1, kMost = 3.0, kTimes = 1.04, kHeightStep = 0.03, kApart = 3.5;
   RidgeLine best{.width = width};
   for (double rise = std::max(kLeast, kApart * width); rise <= kMost; rise *= kTimes)
     for (const double sign : {-1.0, 1.0})
@@ -261,7 +268,7 @@ std::optional<SlantedRidge> likeliest_slanted_ridge(const FlankGeometry& geometr
     for (const bool around : {false, true}) {
       const RidgeCells& in = around ? cells.around : cells.profile;
       const RidgesIn all = ridges_in(in);
-      if (!(all.variance > 0.0) || !(all.structure > 0.0)) continue;
+      if (!all.is_clear()) continue;
       RidgeLine line;
       double level = 0.0;
       for (const double width : {0.03, 0.05, 0.08, 0.13, 0.2}) {
