@@ -70,7 +70,9 @@ class RemainderSearch {
     look_over_the_plane(plane.get());
     look_around();
     if (which_ == RemainderOf::kAll) look_at_single_teeth();
-    std::erase_if(found_, [](const RemainderFinding& f) { return f.p_value > kRemainderLevel; });
+    std::erase_if(found_, [](const RemainderFinding& f) {
+      return f.p_value > (f.local ? kLevelOfTooth : kRemainderLevel);
+    });
     std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
       return is_better(a.p_value, a.square, b.p_value, b.square);
     });
