@@ -68,6 +68,7 @@ void explain_part(PartModel& model) {
   divide_into_patches(model);
   ban_what_cannot_be_seen(model);
   model.unseen = model.banned;
+  ban_pitch_in_runouts(model);
   ban_given(model);
   const bool scan_for_more =
       !model.options.joined && !model.options.names_only && !is_rounding(model);
