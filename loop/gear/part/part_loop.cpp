@@ -12,6 +12,7 @@
 #include "trueflank/loop/gear/part/other_starts.h"
 #include "trueflank/loop/gear/part/parts_of_forms.h"
 #include "trueflank/loop/gear/part/records.h"
+#include "trueflank/loop/gear/part/repeating_waves.h"
 #include "trueflank/loop/gear/part/settled_names.h"
 #include "trueflank/loop/gear/part/single_teeth.h"
 #include "trueflank/loop/gear/part/structure_left.h"
@@ -105,6 +106,7 @@ void explain_part(PartModel& model) {
   doubt_size_of_flanks(model);
   take_form_around(model);
   tell_what_one_flank_has(model);
+  tell_waves_as_pattern(model);
   name_what_is_settled(model);
   tell_likeliest_names(model);
   tell_the_usual_of_equals(model);
