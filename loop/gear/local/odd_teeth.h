@@ -11,6 +11,9 @@ namespace trueflank::loop {
 /// Level of what stands on one tooth, of all that was asked about together. Other forms are seen on
 /// many teeth; one of a single tooth has nothing else to bear it out.
 inline constexpr double kLevelOfTooth = 5e-4;
+[[nodiscard]] inline double level_of(const RemainderFinding& finding) {
+  return finding.local ? kLevelOfTooth : kRemainderLevel;
+}
 
 /// Flanks of one tooth that lean or bend, over the profile or over the face, by far more than those
 /// of the others do, one flank by itself or both, alike or opposite; where that is most of what
