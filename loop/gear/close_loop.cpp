@@ -11,6 +11,7 @@
 #include "trueflank/loop/gear/iso_1328.h"
 #include "trueflank/loop/gear/local/far_values.h"
 #include "trueflank/loop/gear/local/loud_places.h"
+#include "trueflank/loop/gear/measure_next.h"
 #include "trueflank/loop/gear/orders_alike.h"
 #include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/odd_forms.h"
@@ -147,7 +148,8 @@ LoopResult result_of(const FlankGeometry& geometry, const PartModel& model, cons
                                      {},
                                      model.table.operator->()});
   say_where_records_differ(model.alone, result);
-  result.measure_next = measurements_that_separate(result.effects, result.not_observable);
+  result.measure_next =
+      measurements_that_separate(result.effects, result.not_observable, *model.table.operator->());
   for (int e = 0; e < static_cast<int>(model.effects.size()); ++e)
     if (!orders_alike(geometry, model.table, fit, e).empty()) {
       result.measure_next.emplace_back(

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -136,6 +138,51 @@ class Describer {
     }
   }
 
+  /// Teeth on which an effect stands, or most of it.
+  std::vector<int> teeth_of(const Effect& effect) const {
+    constexpr double kMostly = 0.5;
+    const FlankGeometry& g = sources_.geometry;
+    const double low = g.root_form_roll_mm(), high = g.tip_form_roll_mm();
+    std::vector<double> sizes;
+    for (int tooth = 1; tooth <= g.teeth(); ++tooth) {
+      double most = 0.0;
+      for (const int side : {1, -1})
+        for (const double u : {0.05, 0.3, 0.5, 0.7, 0.95})
+          for (const double v : {0.05, 0.3, 0.5, 0.7, 0.95}) {
+            std::array<double, 8> columns{};
+            effect.evaluate(g,
+                            g.on_flank(tooth, side, low + u * (high - low), v * g.face_width_mm()),
+                            columns.data());
+            for (const double column : columns) most = std::max(most, std::abs(column));
+          }
+      sizes.push_back(most);
+    }
+    const double largest = *std::max_element(sizes.begin(), sizes.end());
+    std::vector<int> teeth;
+    for (int tooth = 1; tooth <= g.teeth(); ++tooth)
+      if (sizes[static_cast<std::size_t>(tooth) - 1] > kMostly * largest) teeth.push_back(tooth);
+    return teeth;
+  }
+
+  /// The traced teeth among those that an effect of some neighbouring teeth is told of, where not
+  /// all of these were traced: "; of these teeth 19 and 20 were traced".
+  std::string traced_of_them(const Effect& effect, const std::string& words) const {
+    if (sources_.table == nullptr || words.find(" teeth from tooth ") == std::string::npos)
+      return "";
+    const std::vector<int> traced = traced_teeth(*sources_.table), all = teeth_of(effect);
+    std::vector<int> these;
+    std::set_intersection(all.begin(), all.end(), traced.begin(), traced.end(),
+                          std::back_inserter(these));
+    if (these.empty() || these.size() == all.size()) return "";
+    if (these.size() == traced.size())
+      return "; all teeth traced are among these, and the others may have it too";
+    if (these.size() == 1) return printed("; of these tooth %d was traced", these.front());
+    std::string text = "; of these teeth ";
+    for (std::size_t k = 0; k < these.size(); ++k)
+      text += (k == 0 ? "" : k + 1 == these.size() ? " and " : ", ") + std::to_string(these[k]);
+    return text + " were traced";
+  }
+
   Term term(int e) const {
     const Effect& effect = sources_.fit.effects()[e];
     const int column = sources_.fit.first_column(e);
@@ -144,7 +191,8 @@ class Describer {
     Term result = term_of(*effect.family, effect.shape);
     const std::span<const double> own(b.data() + column,
                                       static_cast<std::size_t>(effect.columns()));
-    result.text = with_remark(words_for(sources_.geometry, effect, own), *effect.family);
+    const std::string words = words_for(sources_.geometry, effect, own);
+    result.text = with_remark(words + traced_of_them(effect, words), *effect.family);
     result.cos = b[column];
     double variance = covariance(column, column);
     if (effect.columns() == 2) {
@@ -196,6 +244,40 @@ class Describer {
         std::all_of(found.terms.begin(), found.terms.end(),
                     [](const Term& t) { return t.half_width >= t.amplitude(); });
     if (may_be_nothing) found.sure = "a guess: its size may as well be nothing";
+    if (is_of_one_value(members.front())) {
+      found.sure =
+          "a guess: one value says so; a wild reading, dirt or a burr looks the same until that "
+          "tooth is measured again";
+      found.measure_again = printed(
+          "tooth %.0f again, its %s flank: one value of it stands out, as a wild reading, "
+          "dirt or a burr does",
+          sources_.fit.effects()[static_cast<std::size_t>(members.front())].shape[0],
+          found.flank.c_str());
+    }
+  }
+
+  /// True of a flank that stands out in one value of an index, and in nothing else.
+  bool is_of_one_value(int e) const {
+    const Effect& effect = sources_.fit.effects()[static_cast<std::size_t>(e)];
+    if (sources_.table == nullptr || !effect.family->local || effect.columns() != 1 ||
+        effect.flank == FlankChoice::kBoth)
+      return false;
+    const Observations& table = *sources_.table;
+    int values = 0;
+    for (const Observation& row : table.rows) {
+      bool shows = false;
+      for (std::uint32_t p = row.first_place; p < row.first_place + row.places; ++p) {
+        double column = 0.0;
+        effect.evaluate(sources_.geometry, table.places[p], &column);
+        shows = shows || column != 0.0;
+      }
+      const bool traced =
+          row.kind == ObservationKind::kProfile || row.kind == ObservationKind::kHelix;
+      // (a trace with a zero of its own does not show a height)
+      if (!shows || row.kind == ObservationKind::kSize || (traced && row.trace >= 0)) continue;
+      if (row.kind != ObservationKind::kIndex || ++values > 1) return false;
+    }
+    return values == 1;
   }
 
   /// What the teeth that were traced do not tell apart, with the first effect that it is true of.
@@ -237,8 +319,11 @@ class Describer {
                               found.terms[told].amplitude());
     return printed("A deviation of %.3g um without a known cause: ", size) +
            found.terms.front().text + on + beside +
-           (family.local ? "; inspect that tooth"
-                         : "; find its source before anything is corrected");
+           (is_of_one_value(effect)
+                ? "; one value says so: as likely a wild reading, dirt or a burr; measure that "
+                  "tooth again"
+            : family.local ? "; inspect that tooth"
+                           : "; find its source before anything is corrected");
   }
 
   /// The flanks of an effect of one coefficient that may be opposite on the two flanks; empty of
@@ -281,7 +366,8 @@ class Describer {
         in_all[1] += (*other)[1];
       }
       if (!several) continue;
-      double sign = in_all[0];
+      // (an endless amount has a sign and no figure: the flanks have one each)
+      double sign = std::copysign(std::numeric_limits<double>::infinity(), in_all[0]);
       if (in_all[0] * in_all[1] < 0.0) {
         form.shape.back() = 1.0;
         sign *= flank_side(Flank::kLeft, sources_.geometry.gear().kind);
@@ -295,15 +381,53 @@ class Describer {
     }
   }
 
+  /// How far a scan in a given frame had to be turned about the axis, as far as it moves flanks
+  /// [um]; NaN where none is in a given frame.
+  double turned_um() const {
+    double most = kNaN;
+    Eigen::Index column = 0;
+    for (const bool free : sources_.table->pose_is_free) {
+      if (!free) {
+        const double um = std::abs(sources_.fit.coefficients()[column]) *
+                          sources_.geometry.base_radius_mm() * sources_.geometry.cos_base_helix();
+        most = std::isnan(most) ? um : std::max(most, um);
+      }
+      column += free ? NuisanceColumns::kOfFreePose : 1;
+    }
+    return most;
+  }
+
+  /// True where tips, roots or a bore were measured, and an effect moves them by as much as the
+  /// flanks or nearly: flanks of one side do not.
+  bool moves_what_is_no_flank(int e, double height) const {
+    constexpr double kNearly = 0.5;
+    constexpr int kFewest = 10;  // points
+    const Effect& effect = sources_.fit.effects()[static_cast<std::size_t>(e)];
+    const double amount = sources_.fit.coefficients()[sources_.fit.first_column(e)];
+    int moved = 0;
+    for (const Observation& row : sources_.table->rows) {
+      const Place& place = sources_.table->place(row);
+      if (place.surface == Surface::kFlank || place.surface == Surface::kNone) continue;
+      double column = 0.0;
+      effect.evaluate(sources_.geometry, place, &column);
+      moved += std::abs(amount * column) > kNearly * height ? 1 : 0;
+    }
+    return moved >= kFewest;
+  }
+
   /// A scanned part may be turned about its axis: what all flanks have alike is perhaps twice as
-  /// much on those of one side.
+  /// much on those of one side. Not where what was measured beside the flanks denies it, nor where
+  /// the frame that was given, as it stands, bears out what is told: the other would be a turn that
+  /// happens to hide in it.
   void say_which_flank_is_open() {
     if (sources_.table == nullptr || !may_be_turned(*sources_.table)) return;
     for (std::size_t i = 0; i < found_.size(); ++i) {
       if (members_[i].size() != 1) continue;
       const int e = members_[i].front();
       const double height = std::abs(height_of_flanks_um(sources_.geometry, sources_.fit, e));
-      if (!(height > 0.0)) continue;
+      constexpr double kAsGiven = 0.25;  // of the height
+      if (!(height > 0.0) || moves_what_is_no_flank(e, height) || turned_um() < kAsGiven * height)
+        continue;
       const bool both = sources_.fit.effects()[e].flank == FlankChoice::kBoth;
       found_[i].sentence +=
           (both ? printed("; or flanks of one side alone do by %.3g um", 2.0 * height)
@@ -368,61 +492,6 @@ std::vector<std::pair<std::string, double>> parameter_values(const Effect& effec
     for (Eigen::Index k = 0; k < b.size(); ++k) values.emplace_back(family.parameters[k], b[k]);
   }
   return values;
-}
-
-namespace {
-
-/// What would show an effect that these data cannot: said where everything that it would show is
-/// hidden.
-void say_what_is_hidden(const std::vector<std::string>& not_observable,
-                        std::vector<std::string>& sentences) {
-  const auto hidden = [&](const EffectFamily& family) {
-    return std::find(not_observable.begin(), not_observable.end(), family.id) !=
-           not_observable.end();
-  };
-  const auto& library = effect_library();
-  for (const EffectFamily& family : library) {
-    if (family.shown_by.empty()) continue;
-    const bool all = std::all_of(library.begin(), library.end(), [&](const EffectFamily& other) {
-      return other.shown_by != family.shown_by || hidden(other);
-    });
-    if (all) say_once(sentences, family.shown_by);
-  }
-}
-
-}  // namespace
-
-std::vector<std::string> measurements_that_separate(
-    const std::vector<FoundEffect>& effects, const std::vector<std::string>& not_observable) {
-  std::vector<std::string> sentences;
-  ToldApart told;
-  for (const FoundEffect& found : effects)
-    for (const std::string& other : found.confounded_with)
-      told.add(
-          found.id, other,
-          measurement_between(found.id, find_family(found.id), other, find_family(other),
-                              "the same gear in more records: both flanks, profile, helix, index "
-                              "and sizes"));
-  told.say(sentences, "measure");
-  for (const FoundEffect& found : effects)
-    if (const EffectFamily* family = find_family(found.id);
-        family && !family->causes_told_by.empty())
-      say_once(sentences, found.id + ": " + family->causes_told_by);
-  if (std::any_of(effects.begin(), effects.end(),
-                  [](const FoundEffect& found) { return found.by_process.size() > 1; }))
-    say_once(sentences,
-             "how the part was made decides between the causes: say it ([made] process in the "
-             "design, or a "
-             "line \"# process = grinding\" in the data)");
-  const bool one_part = std::any_of(effects.begin(), effects.end(), [](const FoundEffect& found) {
-    return found.correctable && !found.repeatable;
-  });
-  if (one_part)
-    say_once(sentences,
-             "one part cannot show what repeats; measure a second part of the process before "
-             "correcting it");
-  say_what_is_hidden(not_observable, sentences);
-  return sentences;
 }
 
 }  // namespace trueflank::loop

@@ -43,8 +43,4 @@ struct EffectSources {
 [[nodiscard]] std::string words_for(const FlankGeometry& geometry, const Effect& effect,
                                     std::span<const double> amounts = {});
 
-/// For what is confounded or hidden: the measurement that would tell (one sentence each).
-[[nodiscard]] std::vector<std::string> measurements_that_separate(
-    const std::vector<FoundEffect>& effects, const std::vector<std::string>& not_observable);
-
 }  // namespace trueflank::loop

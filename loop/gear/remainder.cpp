@@ -73,7 +73,7 @@ class RemainderSearch {
     look_in_space(plane.get(), ridge.get());
     look_around();
     if (which_ == RemainderOf::kAll) look_at_single_teeth();
-    std::erase_if(found_, [](const RemainderFinding& f) { return f.p_value > kRemainderLevel; });
+    std::erase_if(found_, [](const RemainderFinding& f) { return f.p_value > level_of(f); });
     std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
       return is_better(a.p_value, a.square, b.p_value, b.square);
     });

@@ -8,6 +8,7 @@
 #include "trueflank/base/contract.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/gear/found_effects.h"
+#include "trueflank/loop/gear/measure_next.h"
 #include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/part/structure_left.h"
@@ -186,7 +187,8 @@ class PartsLoop {
     for (FoundEffect& effect : found) add_parts(effect, numbers);
     result.effects = std::move(found);
     for (int p = 0; p < count(); ++p) describe_one_offs(p, result);
-    result.measure_next = measurements_that_separate(result.effects, result.not_observable);
+    result.measure_next = measurements_that_separate(result.effects, result.not_observable,
+                                                     *together_->table.operator->());
   }
 
   /// What each part says of a repeatable effect; of unnamed ones the strongest term stands for all.

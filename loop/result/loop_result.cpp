@@ -138,8 +138,19 @@ std::string short_number(double value) {
   return std::abs(value) >= 100.0 ? printed("%.1f", value) : printed("%.3g", value);
 }
 
+/// What the values held out lose without an effect; empty where that is nothing, as of what stands
+/// on one tooth that none of them is of.
+std::string held_out_words(double gain, double held_out_rms, const std::string& unit) {
+  constexpr double kNothing = 0.005, kSmaller = 0.05;  // of the error held out
+  if (gain > kNothing * held_out_rms)
+    return "; without it the held-out error is " + short_number(gain) + " " + unit + " larger";
+  if (gain < -kSmaller * held_out_rms)
+    return "; without it the held-out error is " + short_number(-gain) + " " + unit + " smaller";
+  return "";
+}
+
 /// The sentence first, then the numbers.
-std::string effect_text(const FoundEffect& e, const std::string& unit) {
+std::string effect_text(const FoundEffect& e, double held_out_rms, const std::string& unit) {
   std::string text = "  " + e.sentence + "\n    " + e.id + (e.flank == "both" ? "" : ", " + e.flank + " flanks") +
                      ": " + e.description + "\n    " + e.sure + "\n";
   if (e.repeatable)
@@ -152,9 +163,8 @@ std::string effect_text(const FoundEffect& e, const std::string& unit) {
     text += (in_words.empty() ? "" : " " + in_words) + "\n";
   }
   if (std::isfinite(e.explained_fraction))
-    text += "    explains " + short_number(100.0 * e.explained_fraction) +
-            " % of the variance; without it the held-out error is " + short_number(e.held_out_gain) + " " +
-            unit + " larger\n";
+    text += "    explains " + short_number(100.0 * e.explained_fraction) + " % of the variance" +
+            held_out_words(e.held_out_gain, held_out_rms, unit) + "\n";
   if (!e.cause.empty()) text += "    cause: " + e.cause + "\n";
   if (!e.correction.empty()) text += "    do: " + e.correction + "\n";
   if (!e.confounded_with.empty()) text += "    cannot be distinguished from: " + joined(e.confounded_with) + "\n";
@@ -248,7 +258,7 @@ std::string loop_text(const LoopResult& r) {
             short_number(r.before.held_out_rms_points) + "), after " +
             short_number(r.after.rms_points) + " (held out " +
             short_number(r.after.held_out_rms_points) + ")\n";
-  for (const FoundEffect& e : r.effects) text += effect_text(e, unit);
+  for (const FoundEffect& e : r.effects) text += effect_text(e, r.after.held_out_rms, unit);
   if (!r.parts.empty())
     text += "  a part not fitted to: " + short_number(r.new_part_before) + " " + unit +
             " rms as designed, " + short_number(r.new_part_after) +

@@ -62,6 +62,8 @@ struct FoundEffect {
   double p_value = kNaN;
   double bic_gain = kNaN;
   std::vector<std::string> confounded_with;
+  /// What is to be measured again before it is believed; empty: nothing.
+  std::string measure_again = {};
   /// Waves per turn that the teeth that were traced would show alike; empty: none.
   std::vector<int> orders_alike;
   bool correctable = true;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "tests/loop/made_gears.h"
 
@@ -13,6 +14,7 @@ namespace trueflank::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 /// The right flanks are worn but for a ridge at mid profile.
 Process worn_beside_a_ridge(double um) {
@@ -24,9 +26,22 @@ Process thinned(double um) {
   return grown([=](auto&, const FlankSpot&, auto&) { return -um; });
 }
 
+/// The scan in a frame that is turned about the gear's axis, by as much as moves its flanks by
+/// `um`.
+loop::ScanData turned_by(double um, loop::ScanData scan) {
+  const double angle = 1e-3 * um / geometry_of(spur(24)).base_radius_mm();
+  for (auto& p : scan.points_mm)
+    p = {p[0] * std::cos(angle) - p[1] * std::sin(angle),
+         p[0] * std::sin(angle) + p[1] * std::cos(angle), p[2]};
+  return scan;
+}
+
 TEST(OneFlank, WornBesideARidgeIsNoThinTooth) {
-  const auto result =
-      close(spur(24), scan_of(spur(24), {worn_beside_a_ridge(20)}, scanned(2000, 1.5, 3)), true);
+  const auto scan = scan_of(spur(24), {worn_beside_a_ridge(20)}, scanned(2000, 1.5, 3));
+  // (as given, the frame bears it out: nothing is open)
+  for (const auto& effect : close(spur(24), scan, true).effects)
+    EXPECT_THAT(effect.sentence, Not(HasSubstr("or both flanks"))) << effect.sentence;
+  const auto result = close(spur(24), turned_by(30.0, scan), true);
   EXPECT_FALSE(has_name(result)) << list(result);
   for (const auto& effect : result.effects) EXPECT_EQ(effect.flank, "right") << list(result);
   ASSERT_EQ(result.effects.size(), 2U) << list(result);
@@ -39,14 +54,59 @@ TEST(OneFlank, ThinTeethBesideASmallRidgeOfOneFlankStayThinTeethAndTheTurnIsSaid
   const auto ridge = grown([](auto&, const FlankSpot& s, auto&) {
     return s.side < 0 ? 6.0 * std::exp(-std::pow((s.u - 0.1) / 0.15, 2)) : 0.0;
   });
-  const auto result =
-      close(spur(24), scan_of(spur(24), {thinned(20), ridge}, scanned(2000, 1.5, 4)), true);
+  const auto scan = scan_of(spur(24), {thinned(20), ridge}, scanned(2000, 1.5, 4));
+  const auto as_given = close(spur(24), scan, true);
+  ASSERT_NE(find(as_given, "contour_offset"), nullptr) << list(as_given);
+  EXPECT_THAT(find(as_given, "contour_offset")->sentence, Not(HasSubstr("one side alone")));
+  const auto result = close(spur(24), turned_by(30.0, scan), true);
   const auto* thin = find(result, "contour_offset");
   ASSERT_NE(thin, nullptr) << list(result);
   EXPECT_THAT(thin->sentence, HasSubstr("or flanks of one side alone do by 4"));
   EXPECT_THAT(thin->sentence,
               HasSubstr("a scan does not show how the part is turned about its axis"));
   EXPECT_THAT(thin->sure, HasSubstr("on which flanks is open"));
+}
+
+// Flanks of one side move no tip.
+TEST(OneFlank, WallsThatAreAllOutWithTheTipsAreNotPerhapsOnesOfOneSide) {
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    std::mt19937_64 random(seed);
+    const double um = std::uniform_real_distribution<double>(15.0, 40.0)(random);
+    const auto out = grown([=](auto&, const FlankSpot&, auto&) { return um; });
+    ScanOptions options = scanned(3000, 3.0, seed);
+    options.any_pose = false;
+    loop::ScanData scan = scan_of(spur(24), {out}, options);
+    add_tips(spur(24), 100.0 * 1e-3 * um / spur(24).tip_mm, scan);
+    const auto result = close(spur(24), scan, false);
+    const auto* offset = find(result, "contour_offset");
+    ASSERT_NE(offset, nullptr) << list(result);
+    EXPECT_THAT(offset->sentence, Not(HasSubstr("one side alone"))) << offset->sentence;
+  }
+}
+
+// Not as a level of both and a groove of one over its whole profile.
+TEST(OneFlank, ALevelOfOneSideInTracesOfACommonZeroIsOneForm) {
+  int one_form = 0;
+  constexpr int kDraws = 6;
+  for (unsigned seed = 1; seed <= kDraws; ++seed) {
+    std::mt19937_64 random(40 + seed);
+    const double um =
+        std::uniform_real_distribution<double>(4.0, 9.0)(random) * (seed % 3 == 0 ? -1.0 : 1.0);
+    const int side = seed % 2 == 0 ? 1 : -1;
+    InspectionOptions options = traced({1, 5, 10, 15, 19, 24}, 0.9, seed);
+    options.common_zero = true;
+    const auto out =
+        grown([=](auto&, const FlankSpot& s, auto&) { return s.side == side ? um : 0.0; });
+    const auto result = close(spur(26), inspection_of(spur(26), {out}, options));
+    const char* flank = side > 0 ? "left" : "right";
+    one_form +=
+        result.effects.size() == 1 && result.effects[0].flank == flank &&
+                std::abs(parameter(result.effects[0], "amplitude_um").value - std::abs(um)) < 0.3
+            ? 1
+            : 0;
+    if (result.effects.size() != 1) std::printf("%s\n", list(result).c_str());
+  }
+  EXPECT_EQ(one_form, kDraws);
 }
 
 TEST(OneFlank, EveryThirdFlankOfOneSideIsNoWaveAndNoThinTooth) {

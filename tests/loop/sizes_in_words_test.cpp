@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <tuple>
 #include <utility>
 
 #include "tests/loop/words_of_forms.h"
+#include "trueflank/base/number_text.h"
 #include "trueflank/loop/gear/local/loud_places.h"
 
 namespace trueflank::test {
@@ -16,6 +18,46 @@ namespace {
 using loop::FlankChoice;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
+
+// Slopes with a name are from end to end: so is what is said of those without.
+TEST(SizesInWords, SayWhatALeanOrABowComesToFromEndToEnd) {
+  const auto g = geometry_of(spur(24));
+  std::mt19937_64 random(7);
+  const auto column = [&](const loop::Effect& effect, double u, double v) {
+    double c[2] = {0.0, 0.0};
+    const double low = g.root_form_roll_mm(), high = g.tip_form_roll_mm();
+    effect.evaluate(g,
+                    g.on_flank(5, 1, 0.5 * (low + high) + 0.5 * u * (high - low),
+                               0.5 * (1.0 + v) * g.face_width_mm()),
+                    c);
+    return c[0];
+  };
+  for (int draw = 0; draw < 6; ++draw) {
+    const double um = std::uniform_real_distribution<double>(-20.0, 20.0)(random);
+    for (const double opposite : {0.0, 1.0})
+      for (const bool of_tooth : {false, true})
+        for (const auto& [profile, face, words] :
+             {std::tuple{1.0, 0.0, " um from root to tip"},
+              std::tuple{0.0, 1.0, " um over the face"},
+              std::tuple{2.0, 0.0, " um from the middle to root and tip"},
+              std::tuple{0.0, 2.0, " um from the middle to the ends"}}) {
+          const loop::Effect form =
+              of_tooth ? effect_of("unnamed_tooth_form", {5, profile, face, opposite})
+                       : effect_of("unnamed", {profile, face, 0, opposite});
+          const bool bow = profile + face == 2.0;
+          const double end = column(form, profile > 0.0 ? 1.0 : 0.0, face > 0.0 ? 1.0 : 0.0),
+                       begin =
+                           bow ? column(form, 0.0, 0.0)
+                               : column(form, profile > 0.0 ? -1.0 : 0.0, face > 0.0 ? -1.0 : 0.0);
+          EXPECT_THAT(said_of(g, form, {um}),
+                      HasSubstr(printed(", by %.3g", std::abs(um * (end - begin))) + words));
+          EXPECT_THAT(said_of(g, form), Not(HasSubstr(words)));
+        }
+  }
+  EXPECT_THAT(said_of(g, effect_of("unnamed", {0, 1, 2, 0}), {3.0, 4.0}),
+              HasSubstr("by 10 um over the face"));
+}
 
 TEST(SizesInWords, AreBoundedByTheFlankAndTheGear) {
   const auto g = geometry_of(spur(24));

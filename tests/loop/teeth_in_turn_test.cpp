@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 #include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "tests/loop/made_gears.h"
 
@@ -96,6 +99,38 @@ TEST(TeethInTurn, TeethAtAnyPlacesAreTheirOwn) {
     EXPECT_TRUE(tells(result, "on tooth " + std::to_string(tooth) + " alone, a swelling"))
         << list(result);
   EXPECT_FALSE(tells(result, "one tooth in")) << list(result);
+}
+
+// As from a cutter whose own pitch is uneven: not a wave ten times per turn.
+TEST(TeethInTurn, PlacesThatComeAgainEveryFewTeethOfAScanAreAPattern) {
+  int patterns = 0;
+  constexpr int kDraws = 5;
+  for (unsigned seed = 1; seed <= kDraws; ++seed) {
+    std::mt19937_64 random(60 + seed);
+    std::normal_distribution<double> place(0.0, 9.0);
+    const int every = 3;
+    const MadeGear gear = spur(every * std::uniform_int_distribution<int>(9, 12)(random));
+    std::vector<double> own(static_cast<std::size_t>(every));
+    for (double& um : own) um = place(random);
+    const auto aside = grown([&](auto&, const FlankSpot& s, auto&) {
+      return s.side * own[static_cast<std::size_t>((s.tooth - 1) % every)];
+    });
+    const auto result = close(gear, scan_of(gear, {aside}, scanned(4000, 3.0, seed)), true);
+    const auto pattern = std::find_if(
+        result.effects.begin(), result.effects.end(), [&](const loop::FoundEffect& effect) {
+          return effect.sentence.find("a pattern that repeats every " + std::to_string(every) +
+                                      " teeth") != std::string::npos;
+        });
+    EXPECT_EQ(find(result, "pitch_wave"), nullptr) << list(result);
+    EXPECT_EQ(result.effects.size(), 1U) << list(result);
+    if (pattern == result.effects.end()) continue;
+    // Its size is the pattern's standard deviation.
+    double mean = 0.0, square = 0.0;
+    for (const double um : own) mean += um / every;
+    for (const double um : own) square += (um - mean) * (um - mean) / every;
+    patterns += std::abs(pattern->terms.front().amplitude() - std::sqrt(square)) < 0.5 ? 1 : 0;
+  }
+  EXPECT_GE(patterns, kDraws - 1);
 }
 
 // Beside a hollow the size of the part says what the pressure angle does, to the last bit: on

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "tests/loop/made_gears.h"
 #include "trueflank/geometry/tooth_span.h"
@@ -15,6 +16,7 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 using testing::MatchesRegex;
+using testing::Not;
 
 double sum_of_shares(const loop::LoopResult& result) {
   double sum = 0.0;
@@ -39,6 +41,80 @@ TEST(ToldEffects, ASentenceSaysWhatIsWrongWhatFollowsAndWhatToDo) {
   EXPECT_THAT(loop_text(off), HasSubstr("\n  The teeth stand"));
   EXPECT_THAT(loop_text(off), HasSubstr("amplitude 1"));
   EXPECT_THAT(loop_json(off), HasSubstr("\"sentence\": \"The teeth stand"));
+}
+
+TEST(ToldEffects, AGainThatIsNothingIsNotPrinted) {
+  loop::LoopResult result;
+  result.after.held_out_rms = 0.64;
+  result.effects.push_back({.id = "single_tooth", .explained_fraction = 0.05});
+  const auto text_with = [&](double gain) {
+    result.effects[0].held_out_gain = gain;
+    return loop_text(result);
+  };
+  for (const double nothing : {0.0, -0.0146, 0.001})
+    EXPECT_THAT(text_with(nothing), Not(HasSubstr("held-out error is"))) << nothing;
+  EXPECT_THAT(text_with(0.3), HasSubstr("without it the held-out error is 0.3 um larger"));
+  EXPECT_THAT(text_with(-0.3), HasSubstr("without it the held-out error is 0.3 um smaller"));
+}
+
+// The words of what is left and its probability are one answer.
+TEST(ToldEffects, SizesThatAgreeWithinTheirErrorsLeaveNothingByTheirProbabilityToo) {
+  const auto geometry = geometry_of(spur(24));
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> error_mm(0.0, 0.002);
+    const double thinner_mm = std::uniform_real_distribution<double>(0.03, 0.08)(random);
+    loop::SizeData sizes;
+    for (const int teeth : {3, 4})
+      sizes.rows.push_back({loop::SizeQuantity::kSpan,
+                            trueflank::base_tangent_length_mm(geometry.gear(), teeth) -
+                                thinner_mm * std::cos(geometry.pressure_angle_rad()) +
+                                error_mm(random),
+                            double(teeth), 2.0});
+    for (const auto& [size, mm] :
+         {std::pair{loop::SizeQuantity::kTipDiameter, 2.0 * geometry.tip_radius_mm()},
+          std::pair{loop::SizeQuantity::kRootDiameter, 2.0 * geometry.root_radius_mm()}})
+      sizes.rows.push_back({size, mm + error_mm(random), kNaN, 2.0});
+    loop::MeasuredData data;
+    data.sizes.push_back(sizes);
+    const auto result = loop::close_loop(geometry, "gear", data, {})->result;
+    if (result.structure_left.find("nothing beyond") == std::string::npos) continue;
+    EXPECT_GT(result.structure_left_p_value, 0.01) << seed << ": " << list(result);
+  }
+}
+
+// Of waves on some teeth only those that were traced are known.
+TEST(ToldEffects, OfTeethThatWereNotTracedNothingIsSaid) {
+  int said = 0;
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    std::mt19937_64 random(seed);
+    const int first = 2 * std::uniform_int_distribution<int>(5, 7)(random);
+    const double per_face = std::uniform_real_distribution<double>(4.0, 6.0)(random);
+    const auto waves = grown([=](auto&, const FlankSpot& s, auto&) {
+      return s.tooth >= first && s.tooth < first + 10 ? 6.0 * std::cos(M_PI * per_face * s.v) : 0.0;
+    });
+    std::vector<int> every_other;
+    std::string theirs;
+    for (int tooth = 2; tooth <= 30; tooth += 2) {
+      every_other.push_back(tooth);
+      if (tooth >= first && tooth < first + 10)
+        theirs += (tooth == first           ? ""
+                   : tooth + 2 < first + 10 ? ", "
+                                            : " and ") +
+                  std::to_string(tooth);
+    }
+    const auto result =
+        close(spur(30), inspection_of(spur(30), {waves}, traced(every_other, 0.5, seed)));
+    for (const auto& effect : result.effects)
+      if (effect.sentence.find(" teeth from tooth ") != std::string::npos) {
+        ++said;
+        EXPECT_NE(effect.sentence.find("; of these teeth " + theirs + " were traced"),
+                  std::string::npos)
+            << effect.sentence;
+      }
+    EXPECT_FALSE(result.effects.empty()) << list(result);
+  }
+  EXPECT_GE(said, 2);
 }
 
 TEST(ToldEffects, EveryNamedEffectHasASentenceOfItsOwn) {

@@ -37,8 +37,9 @@ std::string words_of_bent_tooth(const ToldForm& told) {
   const EffectShape& shape = told.shape;
   const double along = shape[kBentAlong], nothing = shape[kNothingAt];
   const int sign = told.sign();
-  const std::string size =
-      told.amounts.size() == 1 ? printed("%.3g um", std::abs(told.amounts[0])) : "most";
+  const std::string size = told.amounts.size() == 1 && std::isfinite(told.amounts[0])
+                               ? printed("%.3g um", std::abs(told.amounts[0]))
+                               : "most";
   std::string text = printed("tooth %.0f alone ", shape[kBentTooth]);
   if (nothing == 0.0) {
     text += shape[kBentOpposite] != 0.0 ? "is bowed aside" + (sign == 0 ? "" : ", " + turned(sign))

@@ -65,7 +65,26 @@ std::string in_direction(double direction_rad) {
 }
 
 CourseOfTeeth CourseOfTeeth::at(const ToldForm& form, std::size_t k) {
-  return {form.shape[k], form.shape[k + 1], form.shape[k + 2] != 0.0, form.flank, form.sign()};
+  return {form.shape[k],
+          form.shape[k + 1],
+          form.shape[k + 2] != 0.0,
+          form.flank,
+          form.sign(),
+          form.amounts.size() == 1 ? std::abs(form.amounts[0]) : kNaN};
+}
+
+std::string CourseOfTeeth::in_all() const {
+  const bool profile = profile_degree > 0.0, face = face_degree > 0.0;
+  if (!std::isfinite(um) || profile == face) return "";
+  constexpr double kOfLean = 2.0;
+  const double degree = profile_degree + face_degree;
+  if (degree == 1.0)
+    return printed(", by %.3g um ", kOfLean * um) +
+           (profile ? "from root to tip" : "over the face");
+  if (degree == 2.0)
+    return printed(", by %.3g um from the middle to ", bow * um) +
+           (profile ? "root and tip" : "the ends");
+  return "";
 }
 
 std::string CourseOfTeeth::material() const {
@@ -90,7 +109,7 @@ std::string CourseOfTeeth::does() const {
          (profile_degree > 0.0 && face_degree > 0.0 ? ""
           : profile_degree > 0.0                    ? "profile"
                                                     : "face") +
-         (more.empty() ? (opposite ? ", opposite on the two flanks" : "") : ": " + more);
+         (more.empty() ? (opposite ? ", opposite on the two flanks" : "") : ": " + more) + in_all();
 }
 
 std::string CourseOfTeeth::what() const {

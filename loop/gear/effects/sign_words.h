@@ -35,6 +35,10 @@ struct CourseOfTeeth {
   bool opposite = false;  ///< on the two flanks
   FlankChoice flank = FlankChoice::kBoth;
   int sign = 0;
+  double um = kNaN;  ///< its coefficient's size; NaN: not known
+  /// How far a bow goes from the middle to its ends, of a coefficient of 1: that of u^2; Legendre's
+  /// 1.5. (A lean of 1 goes from -1 to 1.)
+  double bow = 1.0;
 
   /// The degrees over profile and face and the flanks, from the k-th shape value on.
   [[nodiscard]] static CourseOfTeeth at(const ToldForm& form, std::size_t k);
@@ -42,7 +46,12 @@ struct CourseOfTeeth {
   /// Where there is how much: "more material at the upper end", "the tip stands clockwise", "the
   /// flanks stand out"; empty of an unknown sign.
   [[nodiscard]] std::string material() const;
-  /// What one tooth does: "leans over the face: more material at the upper end".
+  /// What a lean or a bow comes to from one end to the other, as drawings have it: ", by 12.5 um
+  /// from root to tip", ", by 6 um from the middle to the ends"; empty of others, and where it is
+  /// not known.
+  [[nodiscard]] std::string in_all() const;
+  /// What one tooth does: "leans over the face: more material at the upper end, by 6 um over the
+  /// face".
   [[nodiscard]] std::string does() const;
   /// What changes from tooth to tooth, "the lean over the face", and in which direction: ", towards
   /// more material at the upper end".

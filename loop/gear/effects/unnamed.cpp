@@ -88,11 +88,16 @@ std::string in_words(const ToldForm& told) {
     text += opposite ? ", opposite on the two flanks" : ", equal on both flanks";
   // (a wave has it where it is largest)
   const int sign = order == 0.0 ? told.sign() : std::isnan(direction_rad) ? 0 : 1;
-  const std::string material =
-      CourseOfTeeth{shape[0], shape[1], opposite, told.flank, sign}.material();
+  double square = 0.0;
+  for (const double amount : told.amounts) square += amount * amount;
+  constexpr double kLegendresBow = 1.5;
+  const CourseOfTeeth form{shape[0],     shape[1], opposite,
+                           told.flank,   sign,     square > 0.0 ? std::sqrt(square) : kNaN,
+                           kLegendresBow};
+  const std::string material = form.material();
   if (material.empty()) return text;
   return text + ": " + material +
-         (order == 0.0 ? "" : ", most" + first_at(direction_rad, order).substr(1));
+         (order == 0.0 ? "" : ", most" + first_at(direction_rad, order).substr(1)) + form.in_all();
 }
 
 }  // namespace

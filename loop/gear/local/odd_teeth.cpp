@@ -57,7 +57,7 @@ class OddTeeth {
     }
     for (OfTooth& one : found) one.p_value = std::min(1.0, looks_ * one.p_value);
     std::erase_if(found, [](const OfTooth& one) {
-      return one.p_value > kRemainderLevel || one.square < kMost * one.excess;
+      return one.p_value > kLevelOfTooth || one.square < kMost * one.excess;
     });
     return found;
   }
@@ -229,7 +229,7 @@ std::vector<RemainderFinding> odd_teeth(const FlankGeometry& geometry,
       told.push_back(finding_of_tooth(geometry, one));
     }
     const OfTooth any = odd.any_form();
-    if (any.p_value > kRemainderLevel ||
+    if (any.p_value > kLevelOfTooth ||
         std::find(teeth.begin(), teeth.end(), any.tooth) != teeth.end())
       continue;
     const FlankChoice flank = flank_choice(geometry, any.side);
@@ -247,7 +247,7 @@ std::vector<RemainderFinding> odd_teeth(const FlankGeometry& geometry,
   // Two questions of every record: forms, and any form.
   const auto questions = 2.0 * static_cast<double>(moments.size());
   for (RemainderFinding& one : told) one.p_value = std::min(1.0, questions * one.p_value);
-  std::erase_if(told, [](const RemainderFinding& one) { return one.p_value > kRemainderLevel; });
+  std::erase_if(told, [](const RemainderFinding& one) { return one.p_value > kLevelOfTooth; });
   return told;
 }
 

@@ -201,6 +201,20 @@ void ban_what_cannot_be_seen(PartModel& model) {
   }
 }
 
+void ban_pitch_in_runouts(PartModel& model) {
+  const auto& rows = model.table->rows;
+  const auto is_of = [](ObservationKind kind) {
+    return [kind](const Observation& row) { return row.kind == kind; };
+  };
+  if (std::none_of(rows.begin(), rows.end(), is_of(ObservationKind::kRadial)) ||
+      !std::all_of(rows.begin(), rows.end(), [&](const Observation& row) {
+        return is_of(ObservationKind::kRadial)(row) || is_of(ObservationKind::kSize)(row);
+      }))
+    return;
+  for (std::size_t g = 0; g < model.candidates.size(); ++g)
+    if (model.candidates[g].family == find_family("pitch_wave")) model.banned[g] = true;
+}
+
 bool is_within_reach(const PartModel& model, const Effect& effect) {
   const NeedsToBeSeen needs = effect.needs();
   for (const int side : {0, 1}) {

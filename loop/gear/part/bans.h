@@ -8,6 +8,9 @@ namespace trueflank::loop {
 /// What the data cannot show is not looked for under another name: shapes over the profile where
 /// nothing was measured along it, over the face likewise.
 void ban_what_cannot_be_seen(PartModel& model);
+/// A ball in a gap does not move where both its walls do, and hardly where they do by nearly the
+/// same: what a runout alone shows is told as a wave of the radius, not of the pitch.
+void ban_pitch_in_runouts(PartModel& model);
 /// True where values of one of its flanks differ in every direction in which the effect has a
 /// course or a place: with all of them at one height its size would be that where nothing was
 /// measured.

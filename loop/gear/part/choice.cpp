@@ -9,6 +9,7 @@
 #include "trueflank/loop/gear/finite_displacement.h"
 #include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/forms_of_runs.h"
+#include "trueflank/loop/gear/part/single_teeth.h"
 #include "trueflank/loop/gear/plain_rms.h"
 #include "trueflank/loop/gear/shape_refinement.h"
 
@@ -29,7 +30,7 @@ void select(PartModel& model) {
   // With effects given, something was found already.
   options.first_level =
       model.options.given.empty() ? options.first_level / model.options.tables : options.next_level;
-  options.local_level /= model.options.tables;
+  options.local_level = level_of_tooth(model) / model.options.tables;
   model.choice.emplace(problem, options);
   model.discovery = model.choice->chosen();
   problem.nuisance.conservativeResize(Eigen::NoChange, of_pose);

@@ -143,6 +143,25 @@ bool tell_level_of_one_flank(PartModel& model) {
   return false;
 }
 
+/// A level of both flanks, and a form of one of them that takes it out there again, as a wide
+/// groove does: the other flank alone stands out.
+bool tell_level_in_two_pieces(PartModel& model) {
+  for (std::size_t a = 0; a < model.effects.size(); ++a)
+    for (std::size_t b = first_told_here(model); b < model.effects.size(); ++b) {
+      const Effect& form = model.effects[b];
+      if (!is_level_of_both(model, a) || form.flank == FlankChoice::kBoth || form.columns() != 1 ||
+          form.family->local || form.order() > 0.0)
+        continue;
+      const FlankChoice other =
+          form.flank == FlankChoice::kLeft ? FlankChoice::kRight : FlankChoice::kLeft;
+      for (const FlankChoice flank : {other, form.flank})
+        if (stands_in_place_of(model, {std::min(a, b), std::max(a, b)},
+                               {find_family("unnamed"), flank, {0.0, 0.0, 0.0, 0.0}}))
+          return true;
+    }
+  return false;
+}
+
 }  // namespace
 
 void tell_what_one_flank_has(PartModel& model) {
@@ -150,6 +169,7 @@ void tell_what_one_flank_has(PartModel& model) {
   }
   (void)tell_comb_of_one_flank(model);
   (void)tell_level_of_one_flank(model);
+  (void)tell_level_in_two_pieces(model);
 }
 
 }  // namespace trueflank::loop

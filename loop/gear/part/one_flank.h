@@ -8,7 +8,8 @@ namespace trueflank::loop {
 /// One flank worn or off by itself, told as both: a form of both flanks and the same opposite on
 /// them; a comb of one flank as waves and a level; and, as a part may be turned about its axis, the
 /// level of one flank as half of it on both. The last where the flank with it has forms of its own
-/// and is somewhere as designed, and the other has none.
+/// and is somewhere as designed, and the other has none. So is a level of both that a wide form of
+/// one takes out again: the other flank stands out.
 void tell_what_one_flank_has(PartModel& model);
 
 }  // namespace trueflank::loop

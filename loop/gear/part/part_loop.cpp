@@ -12,6 +12,7 @@
 #include "trueflank/loop/gear/part/other_starts.h"
 #include "trueflank/loop/gear/part/parts_of_forms.h"
 #include "trueflank/loop/gear/part/records.h"
+#include "trueflank/loop/gear/part/repeating_waves.h"
 #include "trueflank/loop/gear/part/settled_names.h"
 #include "trueflank/loop/gear/part/single_teeth.h"
 #include "trueflank/loop/gear/part/structure_left.h"
@@ -68,6 +69,7 @@ void explain_part(PartModel& model) {
   divide_into_patches(model);
   ban_what_cannot_be_seen(model);
   model.unseen = model.banned;
+  ban_pitch_in_runouts(model);
   ban_given(model);
   const bool scan_for_more =
       !model.options.joined && !model.options.names_only && !is_rounding(model);
@@ -104,6 +106,7 @@ void explain_part(PartModel& model) {
   doubt_size_of_flanks(model);
   take_form_around(model);
   tell_what_one_flank_has(model);
+  tell_waves_as_pattern(model);
   name_what_is_settled(model);
   tell_likeliest_names(model);
   tell_the_usual_of_equals(model);

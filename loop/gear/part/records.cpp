@@ -223,8 +223,11 @@ bool adopt_from_single_values(PartModel& model, const PartModel& alone, std::vec
   return adopt(model, more, p_values) || adopt(model, without_slopes, p_values);
 }
 
-/// A tooth that stands out less surely than this is none.
-constexpr double kToothByChance = 0.01;
+/// A tooth that stands out less surely than this is none. Beside traces more is asked of one table:
+/// forms, waves and teeth along these.
+double tooth_by_chance(const PartModel& model) {
+  return has_single_values_only(model) ? 0.005 : 0.002;
+}
 
 /// How likely one value is as far out as this one, whose like are `others`: by their tail, or among
 /// them.
@@ -418,7 +421,8 @@ bool take_tooth_of_both_flanks(PartModel& model, std::size_t e) {
   std::erase(without, one);
   std::erase(without, other);
   const auto left_um = PointFit(model.geometry, model.table, model.patches, without).residuals_um();
-  if (chance_of_tooth(model.table, both, model.geometry, *left_um) > kToothByChance) return false;
+  if (chance_of_tooth(model.table, both, model.geometry, *left_um) > tooth_by_chance(model))
+    return false;
   model.effects[e] = both;
   model.discovery.chosen[e].group = -1;
   const auto there = std::find(model.effects.begin(), model.effects.end(), other);
@@ -499,7 +503,8 @@ void drop_teeth_within_the_tails(PartModel& model) {
     const std::vector<double> heights =
         heights_of_single_values(model.table, model.effects[e], model.geometry, after_um);
     if (heights.empty()) continue;
-    if (chance_of_tooth(model.table, model.effects[e], model.geometry, after_um) > kToothByChance) {
+    if (chance_of_tooth(model.table, model.effects[e], model.geometry, after_um) >
+        tooth_by_chance(model)) {
       if (!take_tooth_of_both_flanks(model, e)) remove_effect(model, e);
       continue;
     }
@@ -524,7 +529,7 @@ void drop_teeth_within_the_tails(PartModel& model) {
       expected *= share_further(heights[0]) * share_further(heights[1]);
     else
       expected *= share_further(*std::max_element(heights.begin(), heights.end()));
-    if (expected > kToothByChance) remove_effect(model, e);
+    if (expected > tooth_by_chance(model)) remove_effect(model, e);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "trueflank/loop/gear/fit/flank_fields.h"
 #include "trueflank/loop/gear/part/names.h"
 #include "trueflank/loop/gear/part/names_beside_forms.h"
+#include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/runs_along.h"
 #include "trueflank/loop/gear/possible_effects.h"

@@ -10,11 +10,39 @@
 #include <vector>
 
 #include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/part/choice.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/records.h"
 
 namespace trueflank::loop {
+namespace {
+
+/// A tooth that stands aside or out on both flanks by two values of an index, of which one is far
+/// off and the other, by half of that, is not: one flank's.
+void tell_flank_of_index(PartModel& model) {
+  constexpr double kClearly = 2.0;  // chi-square
+  if (!has_single_values_only(model)) return;
+  for (std::size_t e = model.options.given.size(); e < model.effects.size(); ++e) {
+    const Effect tooth = model.effects[e];
+    if (!tooth.family->local || tooth.columns() != 1 || tooth.flank != FlankChoice::kBoth) continue;
+    double least = fit_of(model, model.effects)->residual_square() - kClearly;
+    for (const FlankChoice flank : {FlankChoice::kLeft, FlankChoice::kRight}) {
+      std::vector<Effect> with = model.effects;
+      with[e] = {find_family("unnamed_flank"), flank, {tooth.shape[0]}};
+      const auto candidate = std::find(model.candidates.begin(), model.candidates.end(), with[e]);
+      if (candidate == model.candidates.end()) continue;
+      const double left = fit_of(model, with)->residual_square();
+      if (!(left < least)) continue;
+      least = left;
+      model.effects = std::move(with);
+      model.discovery.chosen[e].group = static_cast<int>(candidate - model.candidates.begin());
+    }
+  }
+}
+
+}  // namespace
+
 void look_at_single_teeth(PartModel& model) {
   std::vector<Effect> local;
   for (const Effect& effect : model.candidates) {
@@ -32,8 +60,8 @@ void look_at_single_teeth(PartModel& model) {
   DiscoveryOptions options;
   options.first_level = options.next_level = 0.0;
   // Of values one a tooth alone the tails are asked besides.
-  constexpr double kBesideTails = 0.01;
-  if (has_single_values_only(model)) options.local_level = kBesideTails;
+  constexpr double kBesideTails = 0.002;
+  options.local_level = has_single_values_only(model) ? kBesideTails : level_of_tooth(model);
   options.local_level /= model.options.tables;
   options.flips = 1;
   options.most_effects = 3;
@@ -43,7 +71,39 @@ void look_at_single_teeth(PartModel& model) {
     record.group = -1;
     model.discovery.chosen.push_back(record);
   }
+  tell_flank_of_index(model);
   drop_teeth_within_the_tails(model);
+  drop_teeth_within_their_error(model);
+}
+
+double level_of_tooth(const PartModel& model) {
+  constexpr double kOfScans = 2e-4, kOfOthers = 0.002;
+  return model.table->points_mm.empty() ? kOfOthers : kOfScans;
+}
+
+void drop_teeth_within_their_error(PartModel& model) {
+  constexpr double kLooksOfTooth = 4.0;  // out on both flanks, aside, and out on either
+  constexpr double kByChance = 0.002;
+  if (model.table->points_mm.empty()) return;
+  const auto first = static_cast<std::ptrdiff_t>(first_told_here(model));
+  while (std::any_of(model.effects.begin() + first, model.effects.end(),
+                     [](const Effect& effect) { return effect.family->local; })) {
+    const auto fit = fit_of(model, model.effects);
+    std::size_t worst = model.effects.size();
+    double most = kByChance / (kLooksOfTooth * model.geometry.teeth() * model.options.tables);
+    for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+      if (!model.effects[e].family->local || model.effects[e].columns() != 1) continue;
+      const int column = fit->first_column(static_cast<int>(e));
+      const double error = std::sqrt(fit->covariance()(column, column));
+      if (!(error > 0.0)) continue;
+      const double p = student_two_sided(fit->coefficients()[column] / error, fit->degrees(column));
+      if (!(p > most)) continue;
+      most = p;
+      worst = e;
+    }
+    if (worst == model.effects.size()) return;
+    remove_effect(model, worst);
+  }
 }
 
 std::vector<std::size_t> shown_by_held_out_alone(const PartModel& model,

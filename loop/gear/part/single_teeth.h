@@ -5,8 +5,15 @@
 
 namespace trueflank::loop {
 
+/// Level of a single tooth, counted over all teeth asked about. In a scan it is asked for at every
+/// step of a choice, over heights, places and flanks, and errors that hang together make a flank
+/// of their own: there noise must not make one of a few hundred gears.
+[[nodiscard]] double level_of_tooth(const PartModel& model);
 /// Single teeth once more with the hold-out: what stands in one tooth cannot be learnt from others.
 void look_at_single_teeth(PartModel& model);
+/// Takes out teeth of scans that stand within what the scatter of the scan's own flanks makes of so
+/// many teeth and flanks: means of flanks may agree with each other better than that by chance.
+void drop_teeth_within_their_error(PartModel& model);
 /// The effects that held-out values alone show: what stands on one held-out tooth no other value
 /// can foretell. Empty where there are none, and where there are so many that they would follow
 /// held-out values whatever these are: more than one form of either flank, but for forms of one and

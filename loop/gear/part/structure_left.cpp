@@ -11,13 +11,13 @@ namespace trueflank::loop {
 
 namespace {
 
-/// True of sizes alone that lie within their stated errors: four of them may agree with each other
-/// by chance far better than that, which says nothing.
-bool are_sizes_within_their_errors(const PartModel& model) {
-  constexpr double kLevel = 0.01;
+/// Of sizes alone: how likely their stated errors make them differ as much as what effects leave of
+/// them. Four may agree with each other by chance far better than that, which says nothing. NaN
+/// where there are other data.
+double p_value_of_sizes(const PartModel& model) {
   if (!std::all_of(model.table->rows.begin(), model.table->rows.end(),
                    [](const Observation& row) { return row.kind == ObservationKind::kSize; }))
-    return false;
+    return kNaN;
   double square = 0.0;
   int count = 0;
   const auto row_um = fit_of(model, model.effects)->residuals_um();
@@ -28,7 +28,12 @@ bool are_sizes_within_their_errors(const PartModel& model) {
     ++count;
   }
   constexpr double kKnown = 1e9;  // degrees of freedom of an error that is stated
-  return count > 0 && f_tail(square / count, count, kKnown) > kLevel;
+  return count > 0 ? f_tail(square / count, count, kKnown) : kNaN;
+}
+
+bool are_sizes_within_their_errors(const PartModel& model) {
+  constexpr double kLevel = 0.01;
+  return p_value_of_sizes(model) > kLevel;
 }
 
 }  // namespace
@@ -82,6 +87,8 @@ const RemainderFinding& most_telling(const std::vector<RemainderFinding>& remain
 }  // namespace
 
 double structure_left_p_value(const PartModel& model) {
+  if (const double of_sizes = p_value_of_sizes(model); of_sizes > 0.0 && !structure_is_left(model))
+    return of_sizes;
   return model.remainder.empty()
              ? model.discovery.p_left
              : std::min(model.discovery.p_left, most_telling(model.remainder).p_value);
