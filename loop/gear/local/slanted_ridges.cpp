@@ -44,10 +44,11 @@ struct RidgesIn {
   double sum = 0.0, count = 0.0, structure = 0.0, variance = 0.0;
   double filled = 0.0;  ///< cells
 
-  /// Far more than chance leaves in so many cells.
+  /// Far more than chance leaves in cells, and enough of these to follow a line in.
   [[nodiscard]] bool is_clear() const {
-    constexpr double kErrors = 6.0;
-    return variance > 0.0 && structure > kErrors * std::sqrt(2.0 * filled) * variance;
+    constexpr double kErrors = 6.0, kFewestCells = 300.0;
+    return variance > 0.0 && filled >= kFewestCells &&
+           structure > kErrors * std::sqrt(2.0 * filled) * variance;
   }
 };
 RidgesIn ridges_in(const RidgeCells& cells) {
@@ -224,7 +225,9 @@ std::optional<SlantedRidge> likeliest_slanted_ridge(const FlankGeometry& geometr
                                                     const Observations& table,
                                                     const std::vector<float>& row_um,
                                                     const std::vector<bool>& used) {
-  constexpr double kLooks = 1e5, kMostOfIt = 0.4, kAslant = 1.3;
+  constexpr double kLooks = 1e5, kMostOfIt = 0.5, kAslant = 1.3;
+  // (errors that hang together over a few cells follow some line: in variances of single values)
+  constexpr double kFarBeyond = 400.0;
   std::size_t rows = 0, taken = 0;
   for (std::size_t i = 0; i < table.rows.size(); ++i)
     rows += used[i] && table.rows[i].kind == ObservationKind::kScanFlank ? 1U : 0U;
@@ -279,7 +282,9 @@ std::optional<SlantedRidge> likeliest_slanted_ridge(const FlankGeometry& geometr
         level = std::max(level, best_ridge_over_profile(sums, width, all, true).gain.gain);
       }
       const double gain = line.gain.gain;
-      if (gain < kMostOfIt * all.structure || gain < kAslant * level) continue;
+      if (gain < kMostOfIt * all.structure || gain < kAslant * level ||
+          gain < kFarBeyond * all.variance)
+        continue;
       const double square = gain * static_cast<double>(rows) / static_cast<double>(taken);
       if (best && square <= best->square) continue;
       // (the line over the profile stands at its height in the middle of it)
