@@ -91,12 +91,12 @@ double DriveContext::speed_coordinate(const BenchPoint& p) const {
 
 double DriveContext::temperature_coordinate(const BenchPoint& p) const {
   if (!table.has_temperature || !(table.temperature_span_c > 0.0)) return 0.0;
-  return 2.0 * (p.temperature_c - table.mean_temperature_c) / table.temperature_span_c;
+  return (p.temperature_c - table.mean_temperature_c) / table.farthest_temperature_c;
 }
 
 double DriveContext::quantity_at(double over, double coordinate) const {
   if (over == 0.0) return 0.5 * (coordinate + 1.0) * table.most_load_nm;
-  if (over == 2.0) return table.mean_temperature_c + 0.5 * coordinate * table.temperature_span_c;
+  if (over == 2.0) return table.mean_temperature_c + coordinate * table.farthest_temperature_c;
   const double most = table.most_speed_rpm, least = table.least_speed_rpm,
                part = 0.5 * (coordinate + 1.0);
   if (!(most > least)) return least;
@@ -122,14 +122,14 @@ double DriveContext::share_of_range(const BenchPoint& p, double over) const {
 double DriveContext::share_at(double over, double quantity) const {
   if (over == 0.0) return quantity / std::max(table.most_carried_nm, 1e-300);
   if (over == 2.0)
-    return 0.5 + (quantity - table.mean_temperature_c) / std::max(table.temperature_span_c, 1e-300);
+    return (quantity - table.least_temperature_c) / std::max(table.temperature_span_c, 1e-300);
   return (quantity - table.least_speed_rpm) /
          std::max(table.most_speed_rpm - table.least_speed_rpm, 1e-300);
 }
 
 double DriveContext::quantity_at_share(double over, double share) const {
   if (over == 0.0) return share * table.most_carried_nm;
-  if (over == 2.0) return table.mean_temperature_c + (share - 0.5) * table.temperature_span_c;
+  if (over == 2.0) return table.least_temperature_c + share * table.temperature_span_c;
   return table.least_speed_rpm + share * (table.most_speed_rpm - table.least_speed_rpm);
 }
 

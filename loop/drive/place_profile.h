@@ -35,12 +35,16 @@ class BesideEffects {
   };
   /// Of an effect of one column.
   [[nodiscard]] Alone with(const DriveEffect& effect) const;
+  /// Share of the squares of its column that the others do not hold.
+  [[nodiscard]] double own_share(const DriveEffect& effect) const;
   /// What the others alone leave.
   [[nodiscard]] double square() const { return left_.squaredNorm(); }
   /// Columns that are independent.
   [[nodiscard]] int columns() const { return static_cast<int>(others_.cols()); }
 
  private:
+  [[nodiscard]] Eigen::VectorXd column_of(const DriveEffect& effect) const;
+
   const DriveContext& context_;
   Eigen::VectorXd weight_;  ///< 0 for rows not seen
   Eigen::MatrixXd others_;  ///< orthonormal

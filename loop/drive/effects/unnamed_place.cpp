@@ -190,6 +190,17 @@ std::vector<DriveShape> all_places(const DriveContext& context, const DriveShape
   return shapes;
 }
 
+/// Narrow ones too, wherever they stand.
+std::vector<DriveShape> fine_humps(const DriveContext& context) {
+  std::vector<DriveShape> shapes;
+  for (int over = 0; over < 3; ++over)
+    if (context.table.levels[static_cast<std::size_t>(over)] >= 6)
+      for (int k = -31; k <= 31; ++k)
+        for (const double width : {0.055, 0.1, 0.18})
+          shapes.push_back({double(over), 0.03 * k, width, double(kSmooth), 0.0});
+  return shapes;
+}
+
 /// A step at a place, or a hump about one, over load, speed or temperature (in -1 ... 1 of the
 /// range), of a loss or of what the output reads.
 DriveFamily at_a_place(bool hump, bool reading) {
@@ -206,7 +217,8 @@ DriveFamily at_a_place(bool hump, bool reading) {
     f.shape_values.push_back(
         {.continuous = true, .limits = [](const DriveContext&) { return std::pair(0.05, 0.8); }});
     f.shape_values.resize(f.shape_names.size());
-    f.kind = [](const DriveShape& s) { return static_cast<int>(s[kHumpDirection]); };
+    f.kind = [](const DriveShape& s) { return static_cast<int>(3.0 * s[kHumpDirection] + s[0]); };
+    if (!reading) f.whole_shapes = fine_humps;
     f.kin_shapes = [](const DriveShape& s) {
       std::vector<DriveShape> shapes;
       for (const double kind : {double(kSmooth), double(kSharp), double(kEvenBell)})

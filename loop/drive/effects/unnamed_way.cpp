@@ -20,8 +20,9 @@ enum WayValue : std::size_t { kWayOver, kWayOf, kWayForm, kWayTurns, kWayWithin 
 /// once the load has moved a part of the range (kWayWithin) from where it turned.
 enum WayForm { kEven, kMiddle, kGoesOver };
 constexpr double kLeastWithin = 0.04, kMostWithin = 1.2;
-/// What stands where it turned: half of it on either way, as it came, as if it rose, as if it fell.
-enum WayTurns { kHalves, kAsItCame, kAsItRises, kAsItFalls };
+/// What stands where it turned: half of it on either way, as it came, as if it rose, as if it fell,
+/// nothing where it stands.
+enum WayTurns { kHalves, kAsItCame, kAsItRises, kAsItFalls, kNothing };
 
 double way_of(const BenchPoint& p, const DriveShape& s) {
   const bool load = s[kWayOver] == 0.0;
@@ -29,6 +30,8 @@ double way_of(const BenchPoint& p, const DriveShape& s) {
   switch (static_cast<int>(s[kWayTurns])) {
     case kAsItCame:
       return kept;
+    case kNothing:
+      return load ? p.way_stepped : p.speed_way_stepped;
     case kAsItRises:
       return std::max(way, kept);
     case kAsItFalls:
@@ -67,8 +70,8 @@ bool goes_up_and_down(const DriveContext& context, double over) {
 std::vector<double> turns_that_differ(const DriveContext& context, double over) {
   std::vector<double> turns;
   std::vector<std::vector<double>> seen;
-  for (const double how :
-       {double(kHalves), double(kAsItCame), double(kAsItRises), double(kAsItFalls)}) {
+  for (const double how : {double(kHalves), double(kAsItCame), double(kAsItRises),
+                           double(kAsItFalls), double(kNothing)}) {
     std::vector<double> ways;
     for (const BenchPoint& p : context.table.points)
       ways.push_back(way_of(p, {over, 0.0, double(kEven), how}));
@@ -119,6 +122,7 @@ DriveFamily family_of_ways(std::vector<double> of_what) {
   DriveFamily f = without_a_name();
   f.parameters = {"amount_nm"};
   f.shape_names = {"over", "of", "form", "turns"};
+  f.kind = [](const DriveShape& s) { return static_cast<int>(4.0 * s[kWayOver] + s[kWayOf]); };
   f.preference = 8;
   f.stands_alone = true;
   f.shapes = [of_what](const DriveContext& context) {
@@ -133,6 +137,7 @@ DriveFamily family_of_ways(std::vector<double> of_what) {
     }
     return shapes;
   };
+  f.whole_shapes = f.shapes;
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
                   double* c) {
     const double way = way_of(p, s);
@@ -173,6 +178,7 @@ DriveFamily unnamed_hysteresis() {
 DriveFamily unnamed_play() {
   DriveFamily f = family_of_ways({double(kOutputReads)});
   f.is_loss = false;
+  f.whole_shapes = {};
   f.shape_names.emplace_back("within");
   f.shape_values = {{}, {}, {}, {}, {.continuous = true, .limits = [](const DriveContext&) {
                                        return std::pair(kLeastWithin, kMostWithin);
