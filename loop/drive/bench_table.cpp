@@ -380,8 +380,6 @@ void measure_extent(BenchTable& table) {
   table.levels[2] = high - low >= 3.0 ? count_levels(table, &BenchPoint::temperature_c) : 0;
   table.mean_temperature_c = sum / static_cast<double>(table.points.size());
   table.least_temperature_c = low;
-  table.farthest_temperature_c =
-      std::max(high - table.mean_temperature_c, table.mean_temperature_c - low);
   table.temperature_span_c = high - low;
 }
 

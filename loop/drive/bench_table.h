@@ -66,7 +66,6 @@ struct BenchTable {
   std::array<double, 2> most_carried_of{};  ///< backward, forward
   std::array<int, 3> levels{};  ///< distinct loads, speeds, temperatures, up to 8
   double mean_temperature_c = kNaN, least_temperature_c = kNaN, temperature_span_c = 0.0;
-  double farthest_temperature_c = 0.0;  ///< from the mean
   Impossible impossible = Impossible::kNothing;
   std::string impossible_text;  ///< one sentence: where, and how far
   std::vector<std::string> notes;

@@ -91,12 +91,12 @@ double DriveContext::speed_coordinate(const BenchPoint& p) const {
 
 double DriveContext::temperature_coordinate(const BenchPoint& p) const {
   if (!table.has_temperature || !(table.temperature_span_c > 0.0)) return 0.0;
-  return (p.temperature_c - table.mean_temperature_c) / table.farthest_temperature_c;
+  return 2.0 * (p.temperature_c - table.mean_temperature_c) / table.temperature_span_c;
 }
 
 double DriveContext::quantity_at(double over, double coordinate) const {
   if (over == 0.0) return 0.5 * (coordinate + 1.0) * table.most_load_nm;
-  if (over == 2.0) return table.mean_temperature_c + coordinate * table.farthest_temperature_c;
+  if (over == 2.0) return table.mean_temperature_c + 0.5 * coordinate * table.temperature_span_c;
   const double most = table.most_speed_rpm, least = table.least_speed_rpm,
                part = 0.5 * (coordinate + 1.0);
   if (!(most > least)) return least;

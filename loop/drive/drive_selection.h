@@ -180,6 +180,13 @@ class DriveSelection {
     DriveEffect effect;
     double gain = 0.0, looks = 0.0;
   };
+  /// The shapes of these, with their columns: computed once for a state.
+  struct WholeColumns {
+    std::vector<DriveEffect> effects;
+    Eigen::MatrixXf columns;
+    DriveState state;
+  };
+  void fill_whole_columns();
   /// True where one was told.
   bool tell_as_one_whole(DriveOutcome& outcome);
   void add_waves_over_the_angle(const std::vector<DriveEffect>& base,
@@ -188,7 +195,9 @@ class DriveSelection {
   [[nodiscard]] bool is_denied(DriveOutcome outcome);
   /// Two levels far apart, of which every row may have either.
   void tell_as_scattered_states(DriveOutcome& outcome);
-  [[nodiscard]] std::vector<WholeForm> whole_forms(const std::vector<DriveEffect>& base) const;
+  /// `with_places`: also where a loss begins, jumps or stands out.
+  [[nodiscard]] std::vector<WholeForm> whole_forms(const std::vector<DriveEffect>& base,
+                                                   bool with_places) const;
   [[nodiscard]] OneForm as_it_is(const DriveOutcome& outcome) const;
   /// The last of the set is new, and surer than what it stands for by `gain` (chi-square).
   void exchange_as_sure(DriveOutcome& outcome, const OneForm& set, double gain);
@@ -235,6 +244,7 @@ class DriveSelection {
   std::map<std::string, std::set<std::string>> exchangeable_;
   bool vetoed_ = false;  ///< effects were taken back
   bool losses_beside_gains_ = false;
+  WholeColumns whole_;
 };
 
 }  // namespace trueflank::loop

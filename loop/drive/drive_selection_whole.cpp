@@ -153,6 +153,7 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome) {
     return std::any_of(plain.begin(), plain.end(),
                        [&](const DriveEffect& p) { return p.family == e.family; });
   };
+  fill_whole_columns();
   std::set<std::vector<int>> bases{{}};
   std::vector<int> all, names;
   for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
@@ -177,10 +178,10 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome) {
     }
     std::vector<DriveEffect> full = base.effects;
     full.insert(full.end(), plain.begin(), plain.end());
-    std::vector<WholeForm> forms = whole_forms(full);
+    std::vector<WholeForm> forms = whole_forms(full, true);
     // What is plain may do most of what one form does: then it is seen without.
     if (kept.empty() || kept == names)
-      for (WholeForm& form : whole_forms(base.effects)) forms.push_back(std::move(form));
+      for (WholeForm& form : whole_forms(base.effects, false)) forms.push_back(std::move(form));
     for (const auto& [effect, gain, looks] : forms)
       for (std::size_t which = 0; which < (std::size_t{1} << plain.size()); ++which) {
         OneForm set = base;
@@ -266,45 +267,69 @@ void DriveSelection::exchange_as_sure(DriveOutcome& outcome, const OneForm& set,
   outcome.discovery.most_likely_left = -1;
 }
 
+void DriveSelection::fill_whole_columns() {
+  const DriveContext here = context();
+  const bool both = table_.has(true) && table_.has(false);
+  if (!whole_.effects.empty() && whole_.state == state_) return;
+  whole_ = {.effects = {}, .columns = {}, .state = state_};
+  for (const DriveFamily& family : drive_library()) {
+    // (in one direction a loss says it, unless power is gained)
+    if (!family.whole_shapes ||
+        (!family.is_loss && !both && !gains_power() && !family.asked_of_one_direction))
+      continue;
+    for (DriveShape& shape : family.whole_shapes(here))
+      whole_.effects.push_back({&family, std::move(shape)});
+  }
+  const BesideEffects beside(here, value_, {}, FitRows::kTraining);
+  whole_.columns.resize(value_.size(), static_cast<Eigen::Index>(whole_.effects.size()));
+  for (std::size_t k = 0; k < whole_.effects.size(); ++k)
+    whole_.columns.col(static_cast<Eigen::Index>(k)) =
+        beside.column_of(whole_.effects[k]).cast<float>();
+}
+
 std::vector<DriveSelection::WholeForm> DriveSelection::whole_forms(
-    const std::vector<DriveEffect>& base) const {
+    const std::vector<DriveEffect>& base, bool with_places) const {
   constexpr std::size_t kMostForms = 8;
   constexpr double kLeastGain = 0.1;  // of what the base leaves
   const DriveContext here = context();
   const BesideEffects beside(here, value_, base, FitRows::kTraining);
-  const bool both = table_.has(true) && table_.has(false);
   std::vector<WholeForm> forms;
   const auto is_taken = [&](const DriveFamily& f) {
     return std::any_of(base.begin(), base.end(),
                        [&](const DriveEffect& e) { return e.family == &f; });
   };
-  for (const DriveFamily& family : drive_library()) {
-    if (!family.whole_shapes || !may_be_there(family)) continue;
-    // (in one direction a loss says it, unless power is gained)
-    if (!family.is_loss && !both && !gains_power() && !family.asked_of_one_direction) continue;
-    std::map<int, std::tuple<double, std::size_t, DriveShape>> likeliest;
-    for (const DriveShape& shape : family.whole_shapes(here)) {
-      const double gain = beside.with({&family, shape}).gain;
-      auto& [most, looks, best] = likeliest[family.kind ? family.kind(shape) : 0];
-      ++looks;
-      if (gain <= most) continue;
-      most = gain;
-      best = shape;
-    }
-    for (auto& [kind, found] : likeliest) {
-      auto& [most, looks, best] = found;
-      if (best.empty()) continue;
-      for (int round = 0; round < 2 && family.falls_in_steps; ++round)
-        for (DriveShape& shape : family.all_shapes(here, &best))
-          if (const double gain = beside.with({&family, shape}).gain; gain > most) {
-            most = gain;
-            best = shape;
-            break;
-          }
-      forms.push_back({{&family, best}, most, cost_of_looks(looks)});
-    }
+  const Eigen::VectorXf gains = beside.gains(whole_.columns);
+  // Of every family and kind the likeliest.
+  struct Likeliest {
+    double most = 0.0;
+    std::size_t looks = 0, at = 0;
+  };
+  std::map<std::pair<const DriveFamily*, int>, Likeliest> likeliest;
+  for (std::size_t k = 0; k < whole_.effects.size(); ++k) {
+    const DriveEffect& effect = whole_.effects[k];
+    if (!may_be_there(*effect.family)) continue;
+    Likeliest& best =
+        likeliest[{effect.family, effect.family->kind ? effect.family->kind(effect.shape) : 0}];
+    ++best.looks;
+    const double gain = gains[static_cast<Eigen::Index>(k)];
+    if (gain <= best.most) continue;
+    best.most = gain;
+    best.at = k;
   }
-  if (!gains_power() || losses_beside_gains_)
+  for (const auto& [kind, best] : likeliest) {
+    if (best.most < kLeastGain * beside.square()) continue;
+    WholeForm form{whole_.effects[best.at], best.most, cost_of_looks(best.looks)};
+    const DriveFamily& family = *form.effect.family;
+    for (int round = 0; round < 2 && family.falls_in_steps; ++round)
+      for (DriveShape& shape : family.all_shapes(here, &form.effect.shape))
+        if (const double gain = beside.with({&family, shape}).gain; gain > form.gain) {
+          form.gain = gain;
+          form.effect.shape = std::move(shape);
+          break;
+        }
+    forms.push_back(std::move(form));
+  }
+  if (with_places && (!gains_power() || losses_beside_gains_))
     for (const double over : {0.0, 1.0, 2.0})
       for (const DriveEffect& form : likeliest_forms(base, over))
         if (!form.family->named && !is_taken(*form.family) && form.columns() == 1)

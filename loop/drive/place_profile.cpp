@@ -49,6 +49,17 @@ Eigen::VectorXd BesideEffects::column_of(const DriveEffect& effect) const {
   return column;
 }
 
+Eigen::VectorXf BesideEffects::gains(const Eigen::MatrixXf& columns) const {
+  constexpr float kOwn = 1e-3F;  // of single precision
+  const Eigen::MatrixXf others = others_.cast<float>();
+  const Eigen::VectorXf left = left_.cast<float>(), whole = columns.colwise().squaredNorm(),
+                        product = columns.transpose() * left;
+  Eigen::VectorXf own = whole;
+  if (others.cols() > 0) own -= (others.transpose() * columns).colwise().squaredNorm().transpose();
+  return (own.array() > kOwn * whole.array() && whole.array() > 0.0F)
+      .select(product.array().square() / own.array().max(1e-30F), 0.0F);
+}
+
 double BesideEffects::own_share(const DriveEffect& effect) const {
   Eigen::VectorXd column = column_of(effect);
   const double whole = column.squaredNorm();

@@ -35,6 +35,10 @@ class BesideEffects {
   };
   /// Of an effect of one column.
   [[nodiscard]] Alone with(const DriveEffect& effect) const;
+  /// The same of many columns of one each, as column_of() gives them: what each takes off.
+  [[nodiscard]] Eigen::VectorXf gains(const Eigen::MatrixXf& columns) const;
+  /// An effect's column in the noise's units, 0 for rows not seen.
+  [[nodiscard]] Eigen::VectorXd column_of(const DriveEffect& effect) const;
   /// Share of the squares of its column that the others do not hold.
   [[nodiscard]] double own_share(const DriveEffect& effect) const;
   /// What the others alone leave.
@@ -43,8 +47,6 @@ class BesideEffects {
   [[nodiscard]] int columns() const { return static_cast<int>(others_.cols()); }
 
  private:
-  [[nodiscard]] Eigen::VectorXd column_of(const DriveEffect& effect) const;
-
   const DriveContext& context_;
   Eigen::VectorXd weight_;  ///< 0 for rows not seen
   Eigen::MatrixXd others_;  ///< orthonormal

@@ -67,11 +67,13 @@ bool goes_up_and_down(const DriveContext& context, double over) {
 }
 
 /// Ways that these rows tell apart: where nothing stands at a turn there is one.
-std::vector<double> turns_that_differ(const DriveContext& context, double over) {
+std::vector<double> turns_that_differ(const DriveContext& context, double over, bool that_stand) {
   std::vector<double> turns;
   std::vector<std::vector<double>> seen;
-  for (const double how : {double(kHalves), double(kAsItCame), double(kAsItRises),
-                           double(kAsItFalls), double(kNothing)}) {
+  std::vector<double> all{double(kHalves), double(kAsItCame), double(kAsItRises),
+                          double(kAsItFalls)};
+  if (that_stand) all.push_back(double(kNothing));
+  for (const double how : all) {
     std::vector<double> ways;
     for (const BenchPoint& p : context.table.points)
       ways.push_back(way_of(p, {over, 0.0, double(kEven), how}));
@@ -125,11 +127,11 @@ DriveFamily family_of_ways(std::vector<double> of_what) {
   f.kind = [](const DriveShape& s) { return static_cast<int>(4.0 * s[kWayOver] + s[kWayOf]); };
   f.preference = 8;
   f.stands_alone = true;
-  f.shapes = [of_what](const DriveContext& context) {
+  const auto shapes_of = [of_what](const DriveContext& context, bool that_stand) {
     std::vector<DriveShape> shapes;
     for (const double over : {0.0, 1.0}) {
       if (!goes_up_and_down(context, over)) continue;
-      for (const double turns : turns_that_differ(context, over))
+      for (const double turns : turns_that_differ(context, over, that_stand))
         for (const double of : of_what)
           for (const double form : {double(kEven), double(kMiddle)})
             if (turns == double(kHalves) || form == double(kEven))
@@ -137,7 +139,8 @@ DriveFamily family_of_ways(std::vector<double> of_what) {
     }
     return shapes;
   };
-  f.whole_shapes = f.shapes;
+  f.shapes = [shapes_of](const DriveContext& context) { return shapes_of(context, false); };
+  f.whole_shapes = [shapes_of](const DriveContext& context) { return shapes_of(context, true); };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
                   double* c) {
     const double way = way_of(p, s);
