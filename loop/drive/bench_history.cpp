@@ -71,6 +71,15 @@ void note_history(std::vector<BenchPoint>& points) {
     }
     if (i == points.size()) break;
     const bool starts = i == begin;
+    if (!starts) {
+      const auto stepped = [&](double BenchPoint::*value, double most) {
+        constexpr double kStands = 0.002;  // of the largest
+        const double by = points[i].*value - points[i - 1].*value;
+        return by > kStands * most ? 1 : by < -kStands * most ? -1 : 0;
+      };
+      points[i].way_stepped = stepped(&BenchPoint::load_nm, most_load);
+      points[i].speed_way_stepped = stepped(&BenchPoint::speed_rpm, most_speed);
+    }
     // Rows that could not be used were taken too.
     const int step = starts ? 0 : std::max(1, points[i].line - points[i - 1].line);
     points[i].row = starts ? 0 : points[i - 1].row + step;

@@ -379,6 +379,7 @@ void measure_extent(BenchTable& table) {
   if (!table.has_temperature) return;
   table.levels[2] = high - low >= 3.0 ? count_levels(table, &BenchPoint::temperature_c) : 0;
   table.mean_temperature_c = sum / static_cast<double>(table.points.size());
+  table.least_temperature_c = low;
   table.temperature_span_c = high - low;
 }
 

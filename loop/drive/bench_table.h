@@ -35,6 +35,8 @@ struct BenchPoint {
   /// The same where what stands at a turn keeps the way that it came by, as a sensor's or a
   /// lever's friction does; `way` gives half of what stands there to either.
   int way_kept = 0, speed_way_kept = 0;
+  /// Which way each went from the row before; 0 where it stood.
+  int way_stepped = 0, speed_way_stepped = 0;
   /// How far the load and the speed have moved since they turned, of the largest.
   double moved = 0.0, speed_moved = 0.0;
   int row = 0;                 ///< of its file, from 0 on, with the rows that were left out
@@ -63,7 +65,7 @@ struct BenchTable {
   double most_carried_nm = 0.0, least_carried_nm = 0.0;
   std::array<double, 2> most_carried_of{};  ///< backward, forward
   std::array<int, 3> levels{};  ///< distinct loads, speeds, temperatures, up to 8
-  double mean_temperature_c = kNaN, temperature_span_c = 0.0;
+  double mean_temperature_c = kNaN, least_temperature_c = kNaN, temperature_span_c = 0.0;
   Impossible impossible = Impossible::kNothing;
   std::string impossible_text;  ///< one sentence: where, and how far
   std::vector<std::string> notes;

@@ -313,16 +313,17 @@ class DriveReport {
                              correlation_of_visits(opposite, of_visit))};
   }
 
-  /// True where both directions were run and no power is gained once what the sensors read wrong is
-  /// taken off. A scale or a zero that has a name stands for a friction as well: that stays open.
+  /// True where no power is gained once what the sensors read wrong is taken off. Of both
+  /// directions a scale or a zero that has a name stands for a friction as well: that stays open.
+  /// Of one direction nothing else could be told, and the names it stands for are said with it.
   [[nodiscard]] bool readings_explain_the_gain(const DriveFit& all) const {
     const BenchTable& table = selection_.table();
-    if (!table.has(true) || !table.has(false)) return false;
+    const bool both = table.has(true) && table.has(false);
     std::vector<double> taken_off(table.points.size(), 0.0);
     bool any = false;
     for (std::size_t e = 0; e < all.effects().size(); ++e) {
       if (all.effects()[e].family->is_loss) continue;
-      if (all.effects()[e].family->named) return false;
+      if (both && all.effects()[e].family->named) return false;
       any = true;
       const Eigen::VectorXd moved = all.explained_nm(static_cast<int>(e));
       for (std::size_t i = 0; i < taken_off.size(); ++i)

@@ -122,14 +122,14 @@ double DriveContext::share_of_range(const BenchPoint& p, double over) const {
 double DriveContext::share_at(double over, double quantity) const {
   if (over == 0.0) return quantity / std::max(table.most_carried_nm, 1e-300);
   if (over == 2.0)
-    return 0.5 + (quantity - table.mean_temperature_c) / std::max(table.temperature_span_c, 1e-300);
+    return (quantity - table.least_temperature_c) / std::max(table.temperature_span_c, 1e-300);
   return (quantity - table.least_speed_rpm) /
          std::max(table.most_speed_rpm - table.least_speed_rpm, 1e-300);
 }
 
 double DriveContext::quantity_at_share(double over, double share) const {
   if (over == 0.0) return share * table.most_carried_nm;
-  if (over == 2.0) return table.mean_temperature_c + (share - 0.5) * table.temperature_span_c;
+  if (over == 2.0) return table.least_temperature_c + share * table.temperature_span_c;
   return table.least_speed_rpm + share * (table.most_speed_rpm - table.least_speed_rpm);
 }
 

@@ -263,6 +263,11 @@ struct DriveFamily : EffectFacts {
   /// Shapes that hold all that it can be: of its kind, or (nullptr) of all kinds, to be found by.
   std::function<std::vector<DriveShape>(const DriveContext&, const DriveShape* about)> all_shapes =
       {};
+  /// Shapes of what may be all that a bench holds, or all but what has a name, to be found by once
+  /// the others are chosen; empty: it is asked otherwise.
+  std::function<std::vector<DriveShape>(const DriveContext&)> whole_shapes = {};
+  /// A reading that no loss of the library does in one direction alone.
+  bool asked_of_one_direction = false;
   /// False of a shape of which the most stands where nothing was run; empty: none is so.
   std::function<bool(const DriveContext&, const DriveShape&)> shows = {};
   /// True of a place that was run: it goes before shapes that explain as much; empty: none.

@@ -310,6 +310,40 @@ DriveShape jump_beside_all(const DriveContext& context, const Eigen::VectorXd& v
   return best;
 }
 
+/// A step over a quantity between two rows that the fit saw may be anywhere between them: where
+/// those that are locked away say. The fit is the same.
+DriveShape step_beside_all(const DriveContext& context, const Eigen::VectorXd& value,
+                           const std::vector<DriveEffect>& effects, std::size_t effect) {
+  const auto& points = context.table.points;
+  const DriveFamily& family = *effects[effect].family;
+  const DriveFit fit(context, value, effects, FitRows::kTraining);
+  const Eigen::VectorXd left =
+      value - fit.explained_nm() + fit.explained_nm(static_cast<int>(effect));
+  const double amount = fit.coefficients()[fit.first_column(static_cast<int>(effect))];
+  DriveShape best = effects[effect].shape;
+  double least = 1e300;
+  std::vector<DriveShape> shapes{best};
+  for (DriveShape& shape : family.all_shapes(context, &best)) shapes.push_back(std::move(shape));
+  for (const DriveShape& shape : shapes) {
+    double square = 0.0, here = 0.0, there = 0.0;
+    bool same = true;
+    for (std::size_t i = 0; i < points.size() && same; ++i) {
+      family.evaluate(context, points[i], shape, &here);
+      family.evaluate(context, points[i], shapes.front(), &there);
+      if (points[i].fold != 0) {
+        same = here == there;
+        continue;
+      }
+      const double off = (left[static_cast<Eigen::Index>(i)] - amount * here) / points[i].sigma_nm;
+      square += off * off;
+    }
+    if (!same || square >= least) continue;
+    least = square;
+    best = shape;
+  }
+  return best;
+}
+
 }  // namespace
 
 void refine_drive_shapes(const DriveContext& context, const Eigen::VectorXd& value, FitRows rows,
@@ -382,6 +416,8 @@ std::vector<DriveEffect> with_states_of_all_rows(const DriveContext& context,
           context, value, DriveFit(context, value, effects, FitRows::kTraining), e, FitRows::kAll);
     if (effects[e].family->jumps_in_run)
       effects[e].shape = jump_beside_all(context, value, effects, e);
+    else if (effects[e].family->falls_in_steps && effects[e].family->all_shapes)
+      effects[e].shape = step_beside_all(context, value, effects, e);
   }
   return effects;
 }

@@ -83,6 +83,7 @@ DriveOutcome DriveSelection::choose() {
   tell_waves(outcome);
   tell_as_one_place_of_a_turn(outcome);
   follow_the_run(outcome);
+  tell_as_whole_forms(outcome);
   prefer_plainer_names(outcome);
   drop_what_is_nothing(outcome);
   veto(outcome);

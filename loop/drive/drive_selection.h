@@ -171,6 +171,36 @@ class DriveSelection {
   void tell_waves(DriveOutcome& outcome);
   /// Parts of one turn, and the waves that make one up, told as one place of it.
   void tell_as_one_place_of_a_turn(DriveOutcome& outcome);
+  /// Each of what may be all that a bench holds in place of what was chosen, or beside its names:
+  /// told where it leaves clearly less, or does alone what several pieces do.
+  void tell_as_whole_forms(DriveOutcome& outcome);
+  /// A form that may be all there is, what it takes off, and how dear the looks for it are
+  /// (chi-square).
+  struct WholeForm {
+    DriveEffect effect;
+    double gain = 0.0, looks = 0.0;
+  };
+  /// The shapes of these, with their columns: computed once for a state.
+  struct WholeColumns {
+    std::vector<DriveEffect> effects;
+    Eigen::MatrixXf columns;
+    DriveState state;
+  };
+  void fill_whole_columns();
+  /// True where one was told.
+  bool tell_as_one_whole(DriveOutcome& outcome);
+  void add_waves_over_the_angle(const std::vector<DriveEffect>& base,
+                                std::vector<WholeForm>& forms) const;
+  /// True where the hold-out would take some of it back.
+  [[nodiscard]] bool is_denied(DriveOutcome outcome);
+  /// Two levels far apart, of which every row may have either.
+  void tell_as_scattered_states(DriveOutcome& outcome);
+  /// `with_places`: also where a loss begins, jumps or stands out.
+  [[nodiscard]] std::vector<WholeForm> whole_forms(const std::vector<DriveEffect>& base,
+                                                   bool with_places) const;
+  [[nodiscard]] OneForm as_it_is(const DriveOutcome& outcome) const;
+  /// The last of the set is new, and surer than what it stands for by `gain` (chi-square).
+  void exchange_as_sure(DriveOutcome& outcome, const OneForm& set, double gain);
   /// `name_is_open`: the names it stands for explain as much.
   void exchange_effects(DriveOutcome& outcome, const OneForm& set, bool name_is_open);
   /// What follows the temperature may follow the run in which the drive grew warm: where that leaves surely
@@ -214,6 +244,7 @@ class DriveSelection {
   std::map<std::string, std::set<std::string>> exchangeable_;
   bool vetoed_ = false;  ///< effects were taken back
   bool losses_beside_gains_ = false;
+  WholeColumns whole_;
 };
 
 }  // namespace trueflank::loop

@@ -305,7 +305,17 @@ void DriveSelection::drop_what_is_nothing(DriveOutcome& outcome) {
 void DriveSelection::veto(DriveOutcome& outcome) {
   while (!outcome.effects.empty()) {
     const DriveContext here = context();
-    const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
+    // (which of two states comes at random no row foretells)
+    constexpr double kAtRandom = 0.2;  // changes for a row
+    const bool at_random =
+        std::any_of(outcome.effects.begin(), outcome.effects.end(), [&](const DriveEffect& e) {
+          return e.family->shape_of_states &&
+                 static_cast<double>(e.shape.size()) - 1.0 > kAtRandom * outcome.rows;
+        });
+    const DriveFit fit(
+        here, value_,
+        at_random ? with_states_of_all_rows(here, value_, outcome.effects) : outcome.effects,
+        FitRows::kTraining);
     const auto error = [&](const std::vector<bool>& left_out) {
       return drive_errors(here, value_, value_ - fit.columns() * fit.without(left_out))
           .held_out_rms;

@@ -37,7 +37,7 @@ BesideEffects::BesideEffects(const DriveContext& context, const Eigen::VectorXd&
   left_ -= others_ * (others_.transpose() * left_);
 }
 
-BesideEffects::Alone BesideEffects::with(const DriveEffect& effect) const {
+Eigen::VectorXd BesideEffects::column_of(const DriveEffect& effect) const {
   const auto& points = context_.table.points;
   Eigen::VectorXd column(weight_.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -46,6 +46,29 @@ BesideEffects::Alone BesideEffects::with(const DriveEffect& effect) const {
     if (weight_[row] > 0.0) effect.family->evaluate(context_, points[i], effect.shape, &one);
     column[row] = weight_[row] * one;
   }
+  return column;
+}
+
+Eigen::VectorXf BesideEffects::gains(const Eigen::MatrixXf& columns) const {
+  constexpr float kOwn = 1e-3F;  // of single precision
+  const Eigen::MatrixXf others = others_.cast<float>();
+  const Eigen::VectorXf left = left_.cast<float>(), whole = columns.colwise().squaredNorm(),
+                        product = columns.transpose() * left;
+  Eigen::VectorXf own = whole;
+  if (others.cols() > 0) own -= (others.transpose() * columns).colwise().squaredNorm().transpose();
+  return (own.array() > kOwn * whole.array() && whole.array() > 0.0F)
+      .select(product.array().square() / own.array().max(1e-30F), 0.0F);
+}
+
+double BesideEffects::own_share(const DriveEffect& effect) const {
+  Eigen::VectorXd column = column_of(effect);
+  const double whole = column.squaredNorm();
+  column -= others_ * (others_.transpose() * column);
+  return whole > 0.0 ? column.squaredNorm() / whole : 0.0;
+}
+
+BesideEffects::Alone BesideEffects::with(const DriveEffect& effect) const {
+  Eigen::VectorXd column = column_of(effect);
   const double whole = column.squaredNorm();
   column -= others_ * (others_.transpose() * column);
   const double own = column.squaredNorm();
@@ -78,7 +101,10 @@ PlaceProfile profile_of_place(const DriveContext& context, const Eigen::VectorXd
   const double sign = tried.front().alone.coefficient;
   std::erase_if(tried, [&](const Tried& t) { return !(t.alone.coefficient * sign > 0.0); });
   PlaceProfile told{.shape = effects[effect].shape, .coefficient = sign, .figures = {}};
-  if (tried.empty()) return told;
+  if (tried.empty()) {
+    told.figures = family.figures(context, told.shape, told.coefficient);
+    return told;
+  }
   const auto less = [](const Tried& a, const Tried& b) { return a.alone.gain < b.alone.gain; };
   const Tried* best = &*std::max_element(tried.begin(), tried.end(), less);
   const double most = best->alone.gain;

@@ -35,6 +35,12 @@ class BesideEffects {
   };
   /// Of an effect of one column.
   [[nodiscard]] Alone with(const DriveEffect& effect) const;
+  /// The same of many columns of one each, as column_of() gives them: what each takes off.
+  [[nodiscard]] Eigen::VectorXf gains(const Eigen::MatrixXf& columns) const;
+  /// An effect's column in the noise's units, 0 for rows not seen.
+  [[nodiscard]] Eigen::VectorXd column_of(const DriveEffect& effect) const;
+  /// Share of the squares of its column that the others do not hold.
+  [[nodiscard]] double own_share(const DriveEffect& effect) const;
   /// What the others alone leave.
   [[nodiscard]] double square() const { return left_.squaredNorm(); }
   /// Columns that are independent.

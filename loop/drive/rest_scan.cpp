@@ -62,8 +62,19 @@ SumsOfPeriod sums_of_period(const DriveContext& context, const Eigen::VectorXd& 
 
 }  // namespace
 
-LikeliestRest likeliest_rest(const DriveContext& context, const Eigen::VectorXd& left) {
+std::vector<int> periods_of_rests(const std::vector<BenchPoint>& points) {
   constexpr double kTold = 0.3;
+  std::vector<int> periods;
+  const int longest =
+      std::min(kLongestPeriod, static_cast<int>(static_cast<double>(points.size()) / kFewestRests));
+  for (int period = kShortestPeriod; period <= longest; ++period)
+    if (told_by_place(points, period, &BenchPoint::load_nm) <= kTold &&
+        told_by_place(points, period, &BenchPoint::speed_rpm) <= kTold)
+      periods.push_back(period);
+  return periods;
+}
+
+LikeliestRest likeliest_rest(const DriveContext& context, const Eigen::VectorXd& left) {
   LikeliestRest best;
   const auto& points = context.table.points;
   if (!drive_effects::has_one_course(context) ||
@@ -76,12 +87,7 @@ LikeliestRest likeliest_rest(const DriveContext& context, const Eigen::VectorXd&
     units.insert(points[i].unit);
     whole += std::pow(left[static_cast<Eigen::Index>(i)] / points[i].sigma_nm, 2);
   }
-  const int longest =
-      std::min(kLongestPeriod, static_cast<int>(static_cast<double>(points.size()) / kFewestRests));
-  for (int period = kShortestPeriod; period <= longest; ++period) {
-    if (told_by_place(points, period, &BenchPoint::load_nm) > kTold ||
-        told_by_place(points, period, &BenchPoint::speed_rpm) > kTold)
-      continue;
+  for (const int period : periods_of_rests(points)) {
     const SumsOfPeriod sums = sums_of_period(context, left, period);
     if (!(sums.all_square > 0.0)) continue;
     const double beside_constant = whole - sums.all_product * sums.all_product / sums.all_square;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "trueflank/loop/drive/drive_effect.h"
 
@@ -18,5 +19,9 @@ struct LikeliestRest {
 /// follows these would look so.
 [[nodiscard]] LikeliestRest likeliest_rest(const DriveContext& context,
                                            const Eigen::VectorXd& left);
+
+/// Rows after which something may come again: from the shortest on, each at least six times in the
+/// run. Without those with which the loads or speeds come again.
+[[nodiscard]] std::vector<int> periods_of_rests(const std::vector<BenchPoint>& points);
 
 }  // namespace trueflank::loop

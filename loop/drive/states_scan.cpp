@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/drive/effects/columns.h"
@@ -138,7 +139,134 @@ std::vector<double> changes_of(const DriveContext& context, const Series& s, con
   return changes;
 }
 
+/// The split of single values into two levels that leaves least about them.
+States split_in_two(const Series& s) {
+  const std::size_t n = s.value.size();
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto own = [&](std::size_t i) { return s.value[i] / s.column[i]; };
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return own(a) < own(b); });
+  double all_product = 0.0, all_square = 0.0, product = 0.0, square = 0.0, most = -1.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    all_product += s.column[i] * s.value[i];
+    all_square += s.column[i] * s.column[i];
+  }
+  std::size_t below = 1;
+  for (std::size_t k = 0; k + 1 < n; ++k) {
+    product += s.column[order[k]] * s.value[order[k]];
+    square += s.column[order[k]] * s.column[order[k]];
+    const double rest = all_product - product,
+                 taken = product * product / square + rest * rest / (all_square - square);
+    if (taken <= most) continue;
+    most = taken;
+    below = k + 1;
+  }
+  States states;
+  states.state.assign(n, 1);
+  for (std::size_t k = 0; k < below; ++k) states.state[order[k]] = 0;
+  fit_levels(s, states);
+  return states;
+}
+
+/// True where rows that are neighbours in a quantity, or nearest in load and speed, have the same
+/// state more often than chance would have it.
+bool follows_what_was_recorded(const DriveContext& context, const Series& s, const States& states) {
+  constexpr double kSure = 4.0, kNear = 1e-9;
+  const auto& points = context.table.points;
+  const double n = static_cast<double>(s.row.size());
+  double on = 0.0;
+  for (const int state : states.state) on += state;
+  const double alike = (on * on + (n - on) * (n - on)) / (n * n);
+  const auto is_sure = [&](double agree, double pairs) {
+    return pairs > 0.0 && agree - alike * pairs > kSure * std::sqrt(pairs * alike * (1.0 - alike));
+  };
+  std::vector<std::vector<double>> ranks;
+  const auto ask = [&](const auto& quantity) {
+    std::vector<std::size_t> order(s.row.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) {
+      return quantity(points[s.row[a]]) < quantity(points[s.row[b]]);
+    });
+    std::vector<double> rank(order.size());
+    double agree = 0.0;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const bool same = k > 0 && quantity(points[s.row[order[k]]]) <
+                                     quantity(points[s.row[order[k - 1]]]) + kNear;
+      rank[order[k]] = same ? rank[order[k - 1]] : static_cast<double>(k) / n;
+      if (k > 0) agree += states.state[order[k]] == states.state[order[k - 1]] ? 1.0 : 0.0;
+    }
+    ranks.push_back(std::move(rank));
+    return is_sure(agree, n - 1.0);
+  };
+  const auto& t = context.table;
+  bool follows = ask([](const BenchPoint& p) { return p.load_nm; });
+  follows = ask([](const BenchPoint& p) { return p.speed_rpm; }) || follows;
+  follows = ask([](const BenchPoint& p) { return p.forward ? 1.0 : 0.0; }) || follows;
+  double agree = 0.0;
+  for (std::size_t i = 0; i < s.row.size(); ++i) {
+    double nearest = 1e300;
+    std::size_t at = i;
+    for (std::size_t j = 0; j < s.row.size(); ++j) {
+      double away = 0.0;
+      for (const std::vector<double>& rank : ranks) away += std::abs(rank[i] - rank[j]);
+      if (j == i || away >= nearest) continue;
+      nearest = away;
+      at = j;
+    }
+    agree += states.state[i] == states.state[at] ? 1.0 : 0.0;
+  }
+  follows = is_sure(agree, n) || follows;
+  if (t.has_temperature)
+    follows = ask([](const BenchPoint& p) { return p.temperature_c; }) || follows;
+  if (t.has_angle)
+    for (const MemberOrder& member : context.model.orders)
+      follows = ask([&](const BenchPoint& p) {
+                  return drive_effects::place_of_spell(p, member.order);
+                }) ||
+                follows;
+  return follows;
+}
+
 }  // namespace
+
+LikeliestStates scattered_states(const DriveContext& context, const Eigen::VectorXd& left) {
+  constexpr double kApart = 4.5, kFewestOfEither = 0.12, kMostBetween = 0.04, kLow = 0.3,
+                   kHigh = 0.7;
+  constexpr std::size_t kFewestRows = 30;
+  LikeliestStates best;
+  best.square = 1e300;
+  if (!drive_effects::has_one_course(context)) return best;
+  for (const auto what :
+       {drive_effects::kDrag, drive_effects::kOutputReads, drive_effects::kFlanks}) {
+    if (what == drive_effects::kOutputReads &&
+        !(context.table.has(true) && context.table.has(false)))
+      continue;
+    const Series s = series_of(context, left, what, FitRows::kTraining);
+    const double n = static_cast<double>(s.value.size());
+    if (s.value.size() < kFewestRows ||
+        std::any_of(s.column.begin(), s.column.end(), [](double c) { return c == 0.0; }))
+      continue;
+    const States states = split_in_two(s);
+    double on = 0.0, apart = 0.0, between = 0.0;
+    const double step = states.level[1] - states.level[0];
+    for (std::size_t i = 0; i < s.value.size(); ++i) {
+      on += states.state[i];
+      apart += std::pow(s.column[i] * step, 2);
+      const double way = (s.value[i] / s.column[i] - states.level[0]) / step;
+      between += way > kLow && way < kHigh ? 1.0 : 0.0;
+    }
+    if (std::min(on, n - on) < kFewestOfEither * n || between > kMostBetween * n ||
+        std::sqrt(apart / std::max(states.square, 1e-300)) < kApart ||
+        states.changes < kFewestChanges || states.square >= best.square ||
+        follows_what_was_recorded(context, s, states))
+      continue;
+    best = {.p_value = 1.0,
+            .what = static_cast<double>(what),
+            .changes = changes_of(context, s, states),
+            .square = states.square};
+  }
+  return best;
+}
 
 LikeliestStates likeliest_states(const DriveContext& context, const Eigen::VectorXd& left) {
   LikeliestStates best, likely;

@@ -24,6 +24,12 @@ struct LikeliestStates {
 [[nodiscard]] LikeliestStates likeliest_states(const DriveContext& context,
                                                const Eigen::VectorXd& left);
 
+/// Two levels of which every row may have either, at random: levels far apart with next to nothing
+/// between them, which the speed, the load, the temperature, the angle and the direction do not
+/// foretell. `changes` is empty where there are none such.
+[[nodiscard]] LikeliestStates scattered_states(const DriveContext& context,
+                                               const Eigen::VectorXd& left);
+
 /// When which of two levels was there, of what `left` holds of one kind; `changes` where they were
 /// thought to be.
 [[nodiscard]] std::vector<double> changes_of_states(const DriveContext& context,

@@ -42,8 +42,8 @@ inline constexpr double kMostFriction = 0.4;
 /// The one shape of an effect that grows over the run; none where any slope over so few set points looks like it.
 [[nodiscard]] std::vector<DriveShape> where_rows_follow_each_other(const DriveContext& context);
 
-/// What the size of a wave follows, or that it comes by the clock.
-enum WaveHow { kWaveWithLoad = 1, kWaveGrows, kWaveByRows };
+/// What the size of a wave follows, that it comes by the clock, or the one direction that has it.
+enum WaveHow { kWaveWithLoad = 1, kWaveGrows, kWaveByRows, kWaveForward, kWaveBackward };
 
 /// What changes in the course of a run or over a part of a turn.
 enum What { kFlanks, kDrag, kOutputReads, kOutputGain };

@@ -67,6 +67,13 @@ const std::vector<DriveFamily>& drive_library() {
         unnamed_reading_onset(),
         unnamed_power_onset(),
         unnamed_wave(),
+        unnamed_coordinate_wave(),
+        unnamed_reading_coordinate_wave(),
+        unnamed_sawtooth(),
+        unnamed_reading_sawtooth(),
+        unnamed_valley(),
+        unnamed_saturating(),
+        unnamed_gain_of_range(),
     };
     for (DriveFamily& family : all) {
       family.shape_values.resize(family.shape_names.size());

@@ -75,6 +75,13 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_power_onset();
 [[nodiscard]] DriveFamily unnamed_wave();
 [[nodiscard]] DriveFamily unnamed_states();
+[[nodiscard]] DriveFamily unnamed_coordinate_wave();
+[[nodiscard]] DriveFamily unnamed_reading_coordinate_wave();
+[[nodiscard]] DriveFamily unnamed_sawtooth();
+[[nodiscard]] DriveFamily unnamed_reading_sawtooth();
+[[nodiscard]] DriveFamily unnamed_valley();
+[[nodiscard]] DriveFamily unnamed_saturating();
+[[nodiscard]] DriveFamily unnamed_gain_of_range();
 /// @}
 
 }  // namespace trueflank::loop::drive_effects

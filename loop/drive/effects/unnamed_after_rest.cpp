@@ -5,6 +5,7 @@
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/effects/registry.h"
+#include "trueflank/loop/drive/rest_scan.h"
 
 // What dies away after every rest: a seal that sticks, grease that is run in anew. The drive stands
 // still where it changes its direction and where a file begins; other rests are seen by coming
@@ -14,6 +15,9 @@ namespace trueflank::loop::drive_effects {
 namespace {
 
 enum RestValue : std::size_t { kRestOf, kRestPeriod, kRestPhase, kRestRows };
+/// Of what is gone in the row after, the rows in which it dies away; below `kLeavesOne` it is said
+/// so.
+constexpr double kOneRow = 0.3, kLeavesOne = 0.42;
 
 /// Runs from one change of direction to the next, of all files: how many, and their rows.
 struct RunsBetweenTurns {
@@ -55,6 +59,7 @@ double rows_since_rest(const BenchPoint& p, double period, double phase) {
 
 DriveFamily unnamed_after_rest() {
   constexpr double kFewestRuns = 4.0, kShortestRun = 4.0;
+  constexpr double kFewestTurns = 8.0, kLeastMeanRun = 1.3;
   DriveFamily f = without_a_name();
   f.parameters = {"amount_nm"};
   f.shape_names = {"of", "period", "phase", "rows"};
@@ -72,6 +77,28 @@ DriveFamily unnamed_after_rest() {
       for (const double share : {0.05, 0.12, 0.3})
         shapes.push_back({of, 0.0, 0.0, std::max(0.7, share * runs.mean())});
     return shapes;
+  };
+  // Every period that comes six times or more, what loads and speeds follow left out; and changes
+  // of direction, however often they come.
+  f.whole_shapes = [](const DriveContext& context) {
+    std::vector<DriveShape> shapes;
+    const RunsBetweenTurns runs = runs_of(context);
+    const bool turns = runs.count >= kFewestTurns && runs.mean() > kLeastMeanRun;
+    if (has_one_course(context))
+      for (const int period : periods_of_rests(context.table.points))
+        for (int phase = 0; phase < period; ++phase)
+          shapes.push_back({double(kDrag), double(period), double(phase), kOneRow});
+    if (turns)
+      for (const double of : {double(kDrag), double(kFlanks)})
+        for (const double rows : {kOneRow, 1.0, 2.5}) shapes.push_back({of, 0.0, 0.0, rows});
+    return shapes;
+  };
+  f.kind = [](const DriveShape& s) { return s[kRestPeriod] == 0.0 ? 1 : 0; };
+  f.kin_shapes = [](const DriveShape& s) {
+    DriveShape flanks = s;
+    flanks[kRestOf] = double(kFlanks);
+    return s[kRestOf] == double(kFlanks) ? std::vector<DriveShape>{s}
+                                         : std::vector<DriveShape>{s, flanks};
   };
   f.shape_of_rest = [](double of, double period, double phase, double rows) {
     return DriveShape{of, period, phase, rows};
@@ -102,9 +129,13 @@ DriveFamily unnamed_after_rest() {
     return std::string(amount > 0.0 ? "more loss" : "less loss") +
            (turns ? " after every change of direction: "
                   : " that comes again every " + short_text(s[kRestPeriod]) + " rows: ") +
-           with_interval(figures[0], " N m") + " in the first row" +
-           (s[kRestOf] == double(kFlanks) ? " at full load" : "") + ", gone to a third after " +
-           with_interval(figures[1], " rows") + " (" + lines_of_rests(context, s) + "; " +
+           with_interval(figures[0], " N m") +
+           (s[kRestRows] < kLeavesOne ? " in one row alone" : " in the first row") +
+           (s[kRestOf] == double(kFlanks) ? " at full load" : "") +
+           (s[kRestRows] < kLeavesOne
+                ? std::string(" (")
+                : ", gone to a third after " + with_interval(figures[1], " rows") + " (") +
+           lines_of_rests(context, s) + "; " +
            (amount > 0.0 ? "a seal or grease that sticks after a rest?"
                          : "what settles after a rest?") +
            ")";

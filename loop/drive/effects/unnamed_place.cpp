@@ -130,6 +130,21 @@ std::string step_told(const DriveContext&, const DriveShape& s, double amount,
          where + (s[kStepDirection] == 0.0 ? "" : ", and nothing in the other direction");
 }
 
+/// Temperatures lie about their mean, which may be far from their middle.
+std::pair<double, double> ends_of_places(const DriveContext& context) {
+  constexpr double kEnd = 0.95;
+  const BenchTable& t = context.table;
+  if (!t.has_temperature || !(t.temperature_span_c > 0.0)) return {-kEnd, kEnd};
+  const double low = context.coordinate_of(2.0, t.least_temperature_c),
+               high = context.coordinate_of(2.0, t.least_temperature_c + t.temperature_span_c);
+  return {std::min(-kEnd, kEnd * low), std::max(kEnd, kEnd * high)};
+}
+
+double far_end_of_places(const DriveContext& context) {
+  const auto [low, high] = ends_of_places(context);
+  return std::max(-low, high);
+}
+
 /// Places about one, in steps that grow, and over the whole range.
 std::vector<double> near_and_far(const DriveContext& context, double place, double end) {
   std::vector<double> places;
@@ -158,7 +173,7 @@ std::vector<DriveShape> all_places(const DriveContext& context, const DriveShape
     if (about != nullptr && (*about)[0] != double(over)) continue;
     std::vector<double> places;
     if (about != nullptr)
-      places = near_and_far(context, (*about)[1], 0.95);
+      places = near_and_far(context, (*about)[1], over == 2 ? far_end_of_places(context) : 0.95);
     else
       for (const double share : places_between_levels(context, over))
         places.push_back(context.coordinate_of(over, context.quantity_at_share(over, share)));
@@ -190,6 +205,17 @@ std::vector<DriveShape> all_places(const DriveContext& context, const DriveShape
   return shapes;
 }
 
+/// Narrow ones too, wherever they stand.
+std::vector<DriveShape> fine_humps(const DriveContext& context) {
+  std::vector<DriveShape> shapes;
+  for (int over = 0; over < 3; ++over)
+    if (context.table.levels[static_cast<std::size_t>(over)] >= 6)
+      for (int k = -31; k <= 31; ++k)
+        for (const double width : {0.055, 0.1, 0.18})
+          shapes.push_back({double(over), 0.03 * k, width, double(kSmooth), 0.0});
+  return shapes;
+}
+
 /// A step at a place, or a hump about one, over load, speed or temperature (in -1 ... 1 of the
 /// range), of a loss or of what the output reads.
 DriveFamily at_a_place(bool hump, bool reading) {
@@ -197,16 +223,14 @@ DriveFamily at_a_place(bool hump, bool reading) {
   f.parameters = {"amount_nm"};
   f.shape_names = {"over", "place"};
   f.over = first_value;
-  f.shape_values = {{},
-                    {.continuous = true,
-                     .is_place = true,
-                     .limits = [](const DriveContext&) { return std::pair(-0.95, 0.95); }}};
+  f.shape_values = {{}, {.continuous = true, .is_place = true, .limits = ends_of_places}};
   if (hump) {
     f.shape_names.insert(f.shape_names.end(), {"width", "kind", "which_direction"});
     f.shape_values.push_back(
         {.continuous = true, .limits = [](const DriveContext&) { return std::pair(0.05, 0.8); }});
     f.shape_values.resize(f.shape_names.size());
-    f.kind = [](const DriveShape& s) { return static_cast<int>(s[kHumpDirection]); };
+    f.kind = [](const DriveShape& s) { return static_cast<int>(3.0 * s[kHumpDirection] + s[0]); };
+    if (!reading) f.whole_shapes = fine_humps;
     f.kin_shapes = [](const DriveShape& s) {
       std::vector<DriveShape> shapes;
       for (const double kind : {double(kSmooth), double(kSharp), double(kEvenBell)})

@@ -20,6 +20,8 @@ enum WaveValue : std::size_t { kWaveOrder, kWaveHow, kWaveReads, kWavePhase };
 /// What grows or shrinks it: the load, the run, or nothing, over the rows in place of the angle.
 double size_of_wave(const DriveContext& context, const BenchPoint& p, const DriveShape& s) {
   if (s[kWaveHow] == double(kWaveWithLoad)) return p.load_nm / context.table.most_load_nm;
+  if (s[kWaveHow] == double(kWaveForward)) return p.forward ? 1.0 : 0.0;
+  if (s[kWaveHow] == double(kWaveBackward)) return p.forward ? 0.0 : 1.0;
   return s[kWaveHow] == double(kWaveGrows) ? p.taken : 1.0;
 }
 
@@ -48,6 +50,20 @@ std::string most_at_line(const DriveContext& context, double cycles, double phas
   return std::to_string(points.back().line);
 }
 
+/// What its size follows, and where it is that size.
+struct WaveWords {
+  std::string follows, at;
+};
+WaveWords words_of_size(const DriveShape& s) {
+  if (s[kWaveHow] == double(kWaveWithLoad))
+    return {", in proportion to the load", " at the largest load"};
+  if (s[kWaveHow] == double(kWaveForward))
+    return {" while the input drives", ", and nothing while the output drives"};
+  if (s[kWaveHow] == double(kWaveBackward))
+    return {" while the output drives", ", and nothing while the input drives"};
+  return {", that grows over the run from nothing", " at its end"};
+}
+
 std::string wave_told(const DriveContext& context, const DriveShape& s, double amount,
                       const std::vector<Parameter>& figures) {
   const bool reads = s[kWaveReads] != 0.0;
@@ -66,12 +82,8 @@ std::string wave_told(const DriveContext& context, const DriveShape& s, double a
                           printed(" after its angle is 0 and every %.4g turns on", every / 360.0)
                     : printed(", most at %.3g degrees of the input", most) +
                           (every < 359.0 ? printed(" and every %.4g degrees on", every) : "");
-  return what + " " + wave_in_words(context.model, s[kWaveOrder]) +
-         (s[kWaveHow] == double(kWaveWithLoad) ? ", in proportion to the load"
-                                               : ", that grows over the run from nothing") +
-         where + ": " + size +
-         (s[kWaveHow] == double(kWaveWithLoad) ? " at the largest load" : " at its end") +
-         (reads ? kNoLoss : "");
+  return what + " " + wave_in_words(context.model, s[kWaveOrder]) + words_of_size(s).follows +
+         where + ": " + size + words_of_size(s).at + (reads ? kNoLoss : "");
 }
 
 }  // namespace
@@ -118,9 +130,7 @@ DriveFamily unnamed_wave() {
   f.words = [](const DriveModel& model, const DriveShape& s, const DriveContext*) {
     return s[kWaveHow] == double(kWaveByRows)
                ? std::string("that comes and goes with the time")
-               : wave_in_words(model, s[kWaveOrder]) + (s[kWaveHow] == double(kWaveWithLoad)
-                                                            ? ", in proportion to the load"
-                                                            : ", that grows over the run");
+               : wave_in_words(model, s[kWaveOrder]) + words_of_size(s).follows;
   };
   f.term_shapes = [](const DriveShape& s) {
     return std::vector<DriveShape>{

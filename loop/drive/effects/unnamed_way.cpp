@@ -20,8 +20,9 @@ enum WayValue : std::size_t { kWayOver, kWayOf, kWayForm, kWayTurns, kWayWithin 
 /// once the load has moved a part of the range (kWayWithin) from where it turned.
 enum WayForm { kEven, kMiddle, kGoesOver };
 constexpr double kLeastWithin = 0.04, kMostWithin = 1.2;
-/// What stands where it turned: half of it on either way, as it came, as if it rose, as if it fell.
-enum WayTurns { kHalves, kAsItCame, kAsItRises, kAsItFalls };
+/// What stands where it turned: half of it on either way, as it came, as if it rose, as if it fell,
+/// nothing where it stands.
+enum WayTurns { kHalves, kAsItCame, kAsItRises, kAsItFalls, kNothing };
 
 double way_of(const BenchPoint& p, const DriveShape& s) {
   const bool load = s[kWayOver] == 0.0;
@@ -29,6 +30,8 @@ double way_of(const BenchPoint& p, const DriveShape& s) {
   switch (static_cast<int>(s[kWayTurns])) {
     case kAsItCame:
       return kept;
+    case kNothing:
+      return load ? p.way_stepped : p.speed_way_stepped;
     case kAsItRises:
       return std::max(way, kept);
     case kAsItFalls:
@@ -64,11 +67,13 @@ bool goes_up_and_down(const DriveContext& context, double over) {
 }
 
 /// Ways that these rows tell apart: where nothing stands at a turn there is one.
-std::vector<double> turns_that_differ(const DriveContext& context, double over) {
+std::vector<double> turns_that_differ(const DriveContext& context, double over, bool that_stand) {
   std::vector<double> turns;
   std::vector<std::vector<double>> seen;
-  for (const double how :
-       {double(kHalves), double(kAsItCame), double(kAsItRises), double(kAsItFalls)}) {
+  std::vector<double> all{double(kHalves), double(kAsItCame), double(kAsItRises),
+                          double(kAsItFalls)};
+  if (that_stand) all.push_back(double(kNothing));
+  for (const double how : all) {
     std::vector<double> ways;
     for (const BenchPoint& p : context.table.points)
       ways.push_back(way_of(p, {over, 0.0, double(kEven), how}));
@@ -119,13 +124,14 @@ DriveFamily family_of_ways(std::vector<double> of_what) {
   DriveFamily f = without_a_name();
   f.parameters = {"amount_nm"};
   f.shape_names = {"over", "of", "form", "turns"};
+  f.kind = [](const DriveShape& s) { return static_cast<int>(4.0 * s[kWayOver] + s[kWayOf]); };
   f.preference = 8;
   f.stands_alone = true;
-  f.shapes = [of_what](const DriveContext& context) {
+  const auto shapes_of = [of_what](const DriveContext& context, bool that_stand) {
     std::vector<DriveShape> shapes;
     for (const double over : {0.0, 1.0}) {
       if (!goes_up_and_down(context, over)) continue;
-      for (const double turns : turns_that_differ(context, over))
+      for (const double turns : turns_that_differ(context, over, that_stand))
         for (const double of : of_what)
           for (const double form : {double(kEven), double(kMiddle)})
             if (turns == double(kHalves) || form == double(kEven))
@@ -133,6 +139,8 @@ DriveFamily family_of_ways(std::vector<double> of_what) {
     }
     return shapes;
   };
+  f.shapes = [shapes_of](const DriveContext& context) { return shapes_of(context, false); };
+  f.whole_shapes = [shapes_of](const DriveContext& context) { return shapes_of(context, true); };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
                   double* c) {
     const double way = way_of(p, s);
@@ -173,6 +181,7 @@ DriveFamily unnamed_hysteresis() {
 DriveFamily unnamed_play() {
   DriveFamily f = family_of_ways({double(kOutputReads)});
   f.is_loss = false;
+  f.whole_shapes = {};
   f.shape_names.emplace_back("within");
   f.shape_values = {{}, {}, {}, {}, {.continuous = true, .limits = [](const DriveContext&) {
                                        return std::pair(kLeastWithin, kMostWithin);

@@ -1,0 +1,450 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "trueflank/geometry/linear_equations.h"
+#include "trueflank/loop/discovery/order_statistics.h"
+#include "trueflank/loop/drive/drive_selection.h"
+#include "trueflank/loop/drive/effects/columns.h"
+#include "trueflank/loop/drive/one_form.h"
+#include "trueflank/loop/drive/place_profile.h"
+#include "trueflank/loop/drive/states_scan.h"
+
+// One form in place of all that was chosen, or beside what has a name: asked by what it leaves,
+// once the others are chosen.
+namespace trueflank::loop {
+namespace {
+
+/// What nearly every bench has, or, where power is gained, its sensors.
+bool is_plain_beside_forms(const DriveEffect& effect, bool gains) {
+  const DriveFamily& f = *effect.family;
+  if (!f.named || effect.columns() != 1 || !effect.shape.empty() || !f.shape_values.empty())
+    return false;
+  if (gains) return !f.is_loss && !f.drifts && f.into_state && f.side != "input";
+  return f.is_loss && f.preference == 0 && (f.follows == "nothing" || f.follows == "load");
+}
+
+/// Neighbouring shapes do nearly the same: a quarter of them are counted.
+double cost_of_looks(std::size_t shapes) {
+  return 2.0 * std::log(1.0 + 0.25 * static_cast<double>(shapes));
+}
+
+/// True where most of the rows that the form moves most are moved so: not few of them far off.
+bool most_rows_follow(const DriveContext& context, const Eigen::VectorXd& value,
+                      const std::vector<DriveEffect>& effects, std::size_t form) {
+  constexpr double kMuch = 0.5, kLeast = 0.45, kMost = 1.8;
+  constexpr std::size_t kFewest = 5;
+  const DriveFit fit(context, value, effects, FitRows::kTraining);
+  const Eigen::VectorXd moved = fit.explained_nm(static_cast<int>(form)),
+                        left = value - fit.explained_nm() + moved;
+  const auto& points = context.table.points;
+  double most = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    most = std::max(most, std::abs(moved[static_cast<Eigen::Index>(i)]) / points[i].sigma_nm);
+  std::vector<double> share;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    if (points[i].fold != 0 && std::abs(moved[row]) / points[i].sigma_nm > kMuch * most)
+      share.push_back(left[row] / moved[row]);
+  }
+  if (share.size() < kFewest) return false;
+  const double middle = nth_smallest(share, share.size() / 2);
+  return middle > kLeast && middle < kMost;
+}
+
+/// Times as much as of independent rows that a form's amount scatters, by what neighbouring rows
+/// share of what is left.
+double shared_along(const DriveContext& context, const Eigen::VectorXd& value,
+                    const std::vector<DriveEffect>& effects, std::size_t form) {
+  const DriveFit fit(context, value, effects, FitRows::kTraining);
+  const Eigen::VectorXd left = value - fit.explained_nm(),
+                        moved = fit.explained_nm(static_cast<int>(form));
+  const auto& points = context.table.points;
+  double product = 0.0, square = 0.0, last = 0.0, weight = 0.0, n = 0.0;
+  std::vector<double> column, off;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].fold == 0) continue;
+    const auto row = static_cast<Eigen::Index>(i);
+    off.push_back(left[row] / points[i].sigma_nm);
+    column.push_back(moved[row] / points[i].sigma_nm);
+    n += 1.0;
+  }
+  for (std::size_t i = 0; i < off.size(); ++i) {
+    if (i > 0) product += off[i] * last;
+    square += off[i] * off[i];
+    last = off[i];
+  }
+  if (!(square > 0.0)) return 1.0;
+  // (what was fitted makes neighbours look opposite)
+  const double figures = static_cast<double>(size_of(effects));
+  const double alike = std::clamp(product / square + (1.0 + figures) / n, 0.0, 0.95);
+  double sum = 0.0, together = 0.0;
+  for (const double c : column) {
+    together += c * (c + 2.0 * sum);
+    sum = alike * (sum + c);
+    weight += c * c;
+  }
+  return weight > 0.0 ? std::max(1.0, together / weight) : 1.0;
+}
+
+/// Of a set that holds what is there at times, by chance: what says when costs as much as chance
+/// takes off where every row may be either.
+double cost_of_changes(double rows, double changes) {
+  const double often = std::clamp(changes / rows, 1.0 / rows, 0.5);
+  return -2.0 * rows * (often * std::log(often) + (1.0 - often) * std::log(1.0 - often));
+}
+
+}  // namespace
+
+void DriveSelection::tell_as_whole_forms(DriveOutcome& outcome) {
+  constexpr std::size_t kFewestRows = 30, kMostRows = 2500;
+  if (table_.points.size() < kFewestRows || table_.points.size() > kMostRows) return;
+  // Where readings in steps share their rounding this looks like a form, and where both directions
+  // gain power the sensors are asked with more care.
+  const bool in_steps = std::any_of(table_.points.begin(), table_.points.end(),
+                                    [](const BenchPoint& p) { return p.reading >= 0; });
+  if (in_steps || (gains_power() && table_.has(true) && table_.has(false))) return;
+  for (int round = 0; round < 2 && tell_as_one_whole(outcome); ++round) {
+  }
+  tell_as_scattered_states(outcome);
+}
+
+DriveSelection::OneForm DriveSelection::as_it_is(const DriveOutcome& outcome) const {
+  OneForm now{.effects = outcome.effects, .from = {}, .size = size_of(outcome.effects)};
+  for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
+    now.from.push_back(static_cast<int>(e));
+    if (outcome.effects[e].family->shape_of_states)
+      now.size += static_cast<int>(outcome.effects[e].shape.size()) - 1;
+  }
+  const DriveContext here = context();
+  now.square = DriveFit(here, value_, now.effects, FitRows::kTraining).residual_square();
+  return now;
+}
+
+bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome) {
+  constexpr double kClearly = 20.0, kAsOne = 4.0;  // chi-square
+  const bool sensors_alone = gains_power() && !losses_beside_gains_;
+  const OneForm now = as_it_is(outcome);
+  const auto covers = [&](const std::vector<DriveEffect>& effects) {
+    constexpr double kOwn = 0.02;  // of its column, beside the others
+    const DriveContext here = context();
+    std::vector<DriveEffect> others = effects;
+    others.pop_back();
+    return effects.back().columns() > 1 ||
+           BesideEffects(here, value_, others, FitRows::kTraining).own_share(effects.back()) > kOwn;
+  };
+  std::vector<DriveEffect> plain;
+  std::vector<int> plain_from;
+  for (std::size_t g = 0; g < candidates_.size(); ++g) {
+    const DriveEffect& c = candidates_[g];
+    if (banned_[g] || !may_be_there(*c.family) || !is_plain_beside_forms(c, sensors_alone))
+      continue;
+    plain.push_back(c);
+    plain_from.push_back(-1);
+    for (std::size_t e = 0; e < outcome.effects.size(); ++e)
+      if (outcome.effects[e].family == c.family) plain_from.back() = static_cast<int>(e);
+  }
+  const auto is_of_plain = [&](const DriveEffect& e) {
+    return std::any_of(plain.begin(), plain.end(),
+                       [&](const DriveEffect& p) { return p.family == e.family; });
+  };
+  fill_whole_columns();
+  std::set<std::vector<int>> bases{{}};
+  std::vector<int> all, names;
+  for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
+    if (is_of_plain(outcome.effects[e])) continue;
+    all.push_back(static_cast<int>(e));
+    if (outcome.effects[e].family->named) names.push_back(static_cast<int>(e));
+  }
+  bases.insert(all);
+  bases.insert(names);
+  for (std::size_t k = 0; k < all.size() && all.size() > 1; ++k) {
+    std::vector<int> without = all;
+    without.erase(without.begin() + static_cast<std::ptrdiff_t>(k));
+    bases.insert(without);
+  }
+  std::vector<std::pair<OneForm, double>> sets;  // with the cost of looks
+  double noise = now.square / std::max(1.0, outcome.rows - now.size);
+  for (const std::vector<int>& kept : bases) {
+    OneForm base;
+    for (const int e : kept) {
+      base.effects.push_back(outcome.effects[static_cast<std::size_t>(e)]);
+      base.from.push_back(e);
+    }
+    std::vector<DriveEffect> full = base.effects;
+    full.insert(full.end(), plain.begin(), plain.end());
+    std::vector<WholeForm> forms = whole_forms(full, true);
+    // What is plain may do most of what one form does: then it is seen without.
+    if (kept.empty() || kept == names)
+      for (WholeForm& form : whole_forms(base.effects, false)) forms.push_back(std::move(form));
+    for (const auto& [effect, gain, looks] : forms)
+      for (std::size_t which = 0; which < (std::size_t{1} << plain.size()); ++which) {
+        OneForm set = base;
+        for (std::size_t k = 0; k < plain.size(); ++k)
+          if ((which >> k) & 1U) {
+            set.effects.push_back(plain[k]);
+            set.from.push_back(plain_from[k]);
+          }
+        set.effects.push_back(effect);
+        set.from.push_back(-1);
+        if (!fits(set) || !covers(set.effects)) continue;
+        noise = std::min(noise, set.square / std::max(1.0, outcome.rows - set.size));
+        sets.emplace_back(std::move(set), looks);
+      }
+  }
+  // The likeliest with their shapes free: each was sought beside all that is plain.
+  constexpr std::size_t kMostRefined = 14;
+  std::stable_sort(sets.begin(), sets.end(), [&](const auto& a, const auto& b) {
+    return a.first.figure(noise) + a.second < b.first.figure(noise) + b.second;
+  });
+  if (sets.size() > kMostRefined) sets.resize(kMostRefined);
+  for (auto& [set, looks] : sets) {
+    OneForm refined = set;
+    refine_drive_shapes(context(), value_, FitRows::kTraining, refined.effects);
+    if (!fits(refined) || refined.square > set.square) continue;
+    noise = std::min(noise, refined.square / std::max(1.0, outcome.rows - refined.size));
+    set = std::move(refined);
+  }
+  const OneForm* found = nullptr;
+  double least = now.figure(noise);
+  for (const auto& [set, looks] : sets)
+    if (const double figure = set.figure(noise) + looks; figure < least) {
+      least = figure;
+      found = &set;
+    }
+  if (found == nullptr) return false;
+  const OneForm& best = *found;
+  bool drops_a_name = false, drops_any = false;
+  for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
+    if (std::find(best.from.begin(), best.from.end(), static_cast<int>(e)) != best.from.end())
+      continue;
+    drops_any = true;
+    const bool only_mends = is_of_plain(outcome.effects[e]) && best.size < now.size;
+    drops_a_name = drops_a_name || (outcome.effects[e].family->named && !only_mends);
+  }
+  const std::size_t form = best.effects.size() - 1;
+  const DriveContext here = context();
+  double shared = 1.0;
+  for (std::size_t e = 0; e < best.effects.size(); ++e)
+    if (best.from[e] < 0) shared = std::max(shared, shared_along(here, value_, best.effects, e));
+  const double gain = now.figure(noise) - least -
+                      (1.0 - 1.0 / shared) * std::max(0.0, now.square - best.square) / noise;
+  if (gain < (drops_any && !drops_a_name ? kAsOne : kClearly)) return false;
+  if (!most_rows_follow(here, value_, best.effects, form)) return false;
+  const DriveOutcome before = outcome;
+  const DriveState state = state_;
+  exchange_as_sure(outcome, best, gain);
+  if (!is_denied(outcome) || is_denied(before)) return true;
+  outcome = before;
+  state_ = state;
+  return false;
+}
+
+bool DriveSelection::is_denied(DriveOutcome outcome) {
+  const bool vetoed = vetoed_;
+  const DriveState state = state_;
+  const std::size_t effects = outcome.effects.size();
+  veto(outcome);
+  vetoed_ = vetoed;
+  state_ = state;
+  return outcome.effects.size() < effects;
+}
+
+void DriveSelection::exchange_as_sure(DriveOutcome& outcome, const OneForm& set, double gain) {
+  constexpr double kSurest = 1e-9;
+  exchange_effects(outcome, set, false);
+  const double p_value = std::max(kSurest, std::exp(-0.5 * gain));
+  ChosenGroup& record = outcome.discovery.chosen.back();
+  record.p_value = std::min(record.p_value, p_value);
+  record.bic_gain = std::max(record.bic_gain, gain);
+  outcome.discovery.first_p_value = std::min(outcome.discovery.first_p_value, p_value);
+  outcome.discovery.p_left = 1.0;
+  outcome.discovery.most_likely_left = -1;
+}
+
+void DriveSelection::fill_whole_columns() {
+  const DriveContext here = context();
+  const bool both = table_.has(true) && table_.has(false);
+  if (!whole_.effects.empty() && whole_.state == state_) return;
+  whole_ = {.effects = {}, .columns = {}, .state = state_};
+  for (const DriveFamily& family : drive_library()) {
+    // (in one direction a loss says it, unless power is gained)
+    if (!family.whole_shapes ||
+        (!family.is_loss && !both && !gains_power() && !family.asked_of_one_direction))
+      continue;
+    for (DriveShape& shape : family.whole_shapes(here))
+      whole_.effects.push_back({&family, std::move(shape)});
+  }
+  const BesideEffects beside(here, value_, {}, FitRows::kTraining);
+  whole_.columns.resize(value_.size(), static_cast<Eigen::Index>(whole_.effects.size()));
+  for (std::size_t k = 0; k < whole_.effects.size(); ++k)
+    whole_.columns.col(static_cast<Eigen::Index>(k)) =
+        beside.column_of(whole_.effects[k]).cast<float>();
+}
+
+std::vector<DriveSelection::WholeForm> DriveSelection::whole_forms(
+    const std::vector<DriveEffect>& base, bool with_places) const {
+  constexpr std::size_t kMostForms = 8;
+  constexpr double kLeastGain = 0.1;  // of what the base leaves
+  const DriveContext here = context();
+  const BesideEffects beside(here, value_, base, FitRows::kTraining);
+  std::vector<WholeForm> forms;
+  const auto is_taken = [&](const DriveFamily& f) {
+    return std::any_of(base.begin(), base.end(),
+                       [&](const DriveEffect& e) { return e.family == &f; });
+  };
+  const Eigen::VectorXf gains = beside.gains(whole_.columns);
+  // Of every family and kind the likeliest.
+  struct Likeliest {
+    double most = 0.0;
+    std::size_t looks = 0, at = 0;
+  };
+  std::map<std::pair<const DriveFamily*, int>, Likeliest> likeliest;
+  for (std::size_t k = 0; k < whole_.effects.size(); ++k) {
+    const DriveEffect& effect = whole_.effects[k];
+    if (!may_be_there(*effect.family)) continue;
+    Likeliest& best =
+        likeliest[{effect.family, effect.family->kind ? effect.family->kind(effect.shape) : 0}];
+    ++best.looks;
+    const double gain = gains[static_cast<Eigen::Index>(k)];
+    if (gain <= best.most) continue;
+    best.most = gain;
+    best.at = k;
+  }
+  for (const auto& [kind, best] : likeliest) {
+    if (best.most < kLeastGain * beside.square()) continue;
+    WholeForm form{whole_.effects[best.at], best.most, cost_of_looks(best.looks)};
+    const DriveFamily& family = *form.effect.family;
+    for (int round = 0; round < 2 && family.falls_in_steps; ++round)
+      for (DriveShape& shape : family.all_shapes(here, &form.effect.shape))
+        if (const double gain = beside.with({&family, shape}).gain; gain > form.gain) {
+          form.gain = gain;
+          form.effect.shape = std::move(shape);
+          break;
+        }
+    forms.push_back(std::move(form));
+  }
+  if (with_places && (!gains_power() || losses_beside_gains_))
+    for (const double over : {0.0, 1.0, 2.0})
+      for (const DriveEffect& form : likeliest_forms(base, over))
+        if (!form.family->named && !is_taken(*form.family) && form.columns() == 1)
+          forms.push_back({form, beside.with(form).gain, cost_of_looks(100)});
+  add_waves_over_the_angle(base, forms);
+  std::erase_if(forms, [&](const WholeForm& f) { return f.gain < kLeastGain * beside.square(); });
+  std::stable_sort(forms.begin(), forms.end(),
+                   [](const WholeForm& a, const WholeForm& b) { return a.gain > b.gain; });
+  if (forms.size() > kMostForms) forms.resize(kMostForms);
+  std::vector<WholeForm> refined;
+  for (WholeForm& form : forms) {
+    std::vector<DriveEffect> effects = base;
+    effects.push_back(form.effect);
+    refine_drive_shapes(here, value_, FitRows::kTraining, effects);
+    const DriveShape shape = effects.back().shape;
+    for (DriveShape& kin : form.effect.family->kin_shapes&& form.effect.family->whole_shapes
+                               ? form.effect.family->kin_shapes(shape)
+                               : std::vector<DriveShape>{shape})
+      refined.push_back({{form.effect.family, kin}, form.gain, form.looks});
+  }
+  return refined;
+}
+
+void DriveSelection::add_waves_over_the_angle(const std::vector<DriveEffect>& base,
+                                              std::vector<WholeForm>& forms) const {
+  constexpr double kSure = 1e-4, kNear = 0.5;
+  if (!table_.has_angle) return;
+  const DriveContext here = context();
+  const DriveFit fit(here, value_, base, FitRows::kTraining);
+  WaveSpectra spectra;
+  const LikeliestOrder line = spectra.likeliest_order(table_, value_ - fit.explained_nm());
+  if (!(line.p_value < kSure)) return;
+  const auto add = [&](const DriveEffect& wave) {
+    std::vector<DriveEffect> effects = base;
+    effects.push_back(wave);
+    const double gain = fit.residual_square() -
+                        DriveFit(here, value_, effects, FitRows::kTraining).residual_square();
+    forms.push_back({wave, gain, cost_of_looks(table_.points.size())});
+  };
+  for (const DriveFamily& family : drive_library())
+    if (family.shape_of_wave && may_be_there(family))
+      add({&family, family.shape_of_wave(line.order, line.opposite)});
+  // One direction alone may have it.
+  const auto sized = std::find_if(drive_library().begin(), drive_library().end(),
+                                  [](const DriveFamily& f) { return f.is_wave_of_sizes; });
+  if (table_.has(true) && table_.has(false) && may_be_there(*sized))
+    for (const double how :
+         {double(drive_effects::kWaveForward), double(drive_effects::kWaveBackward)}) {
+      constexpr int kPhases = 16, kApart = 4;
+      const BesideEffects beside(here, value_, base, FitRows::kTraining);
+      WholeForm best{{&*sized, {}}, 0.0, cost_of_looks(table_.points.size())};
+      for (int k = -kApart; k <= kApart; ++k)
+        for (int phase = 0; phase < kPhases; ++phase) {
+          const DriveShape shape{line.order + 0.125 * k / std::max(1.0, table_.turns), how, 0.0,
+                                 static_cast<double>(phase) / kPhases};
+          if (const double gain = beside.with({&*sized, shape}).gain; gain > best.gain) {
+            best.gain = gain;
+            best.effect.shape = shape;
+          }
+        }
+      if (!best.effect.shape.empty()) forms.push_back(best);
+    }
+  for (std::size_t g = 0; g < candidates_.size(); ++g)
+    if (const double order = candidates_[g].order();
+        order > 0.0 && candidates_[g].family->named && !banned_[g] &&
+        may_be_there(*candidates_[g].family) &&
+        std::abs(order - line.order) < kNear / std::max(1.0, table_.turns))
+      add(candidates_[g]);
+}
+
+void DriveSelection::tell_as_scattered_states(DriveOutcome& outcome) {
+  constexpr double kClearly = 20.0, kMostLeft = 0.5;
+  if (gains_power() && !losses_beside_gains_) return;
+  const OneForm now = as_it_is(outcome);
+  const auto host = std::find_if(drive_library().begin(), drive_library().end(),
+                                 [](const DriveFamily& f) { return bool(f.shape_of_states); });
+  OneForm best;
+  double least = 1e300, noise = now.square / std::max(1.0, outcome.rows - now.size);
+  for (const bool with_drag : {false, true}) {
+    OneForm set;
+    for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
+      const DriveFamily& f = *outcome.effects[e].family;
+      if (!f.named || f.drifts || f.follows_the_run || (!with_drag && f.follows == "nothing"))
+        continue;
+      set.effects.push_back(outcome.effects[e]);
+      set.from.push_back(static_cast<int>(e));
+    }
+    const DriveContext here = context();
+    LikeliestStates states;
+    Eigen::VectorXd left =
+        value_ - DriveFit(here, value_, set.effects, FitRows::kTraining).explained_nm();
+    for (int round = 0; round < 3; ++round) {
+      states = scattered_states(here, left);
+      if (states.changes.empty()) break;
+      std::vector<DriveEffect> together = set.effects;
+      together.push_back({&*host, host->shape_of_states(states.what, states.changes)});
+      const DriveFit fit(here, value_, together, FitRows::kTraining);
+      left = value_ - fit.explained_nm() + fit.explained_nm(static_cast<int>(together.size()) - 1);
+    }
+    if (states.changes.empty()) continue;
+    set.effects.push_back({&*host, host->shape_of_states(states.what, states.changes)});
+    set.from.push_back(-1);
+    if (!fits(set)) continue;
+    set.size = size_of(set.effects);
+    noise = std::min(noise, set.square / std::max(1.0, outcome.rows - set.size));
+    const double figure = set.figure(noise) +
+                          cost_of_changes(outcome.rows, static_cast<double>(states.changes.size()));
+    if (figure >= least) continue;
+    least = figure;
+    best = set;
+  }
+  if (best.effects.empty() || best.square > kMostLeft * now.square) return;
+  const double gain = now.figure(noise) - least;
+  if (gain < kClearly) return;
+  exchange_as_sure(outcome, best, gain);
+}
+
+}  // namespace trueflank::loop
