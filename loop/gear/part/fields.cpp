@@ -47,6 +47,16 @@ bool is_level_of_order(const Effect& effect, double order) {
          !needs.along_face;
 }
 
+/// Waves over the profile (0) or the face (1) whose sign changes from tooth to tooth.
+std::vector<Effect> alternating_waves(int teeth, FlankChoice flank, int face) {
+  std::vector<Effect> waves;
+  for (double over = 0.5; over < 6.0; over += 0.1)
+    waves.push_back({find_family("unnamed_marks"),
+                     flank,
+                     {face == 0 ? over : 0.0, face == 0 ? 0.0 : over, 0.5 * teeth}});
+  return waves;
+}
+
 }  // namespace
 
 bool tell_as_field(PartModel& model) {
@@ -147,10 +157,7 @@ bool tell_as_alternating_wave(PartModel& model) {
       bends = bends || order || effect.shape[0] > 0.0;
     }
     if (!alternates || !bends || these.size() < 2) continue;
-    std::vector<Effect> waves;
-    for (double over_profile = 0.5; over_profile < 6.0; over_profile += 0.1)
-      waves.push_back({find_family("unnamed_marks"), flank, {over_profile, 0.0, 0.5 * z}});
-    if (put_one_form_for(model, these, waves)) return true;
+    if (put_one_form_for(model, these, alternating_waves(z, flank, 0))) return true;
   }
   return false;
 }
@@ -180,8 +187,14 @@ std::vector<Effect> with_comb(const PartModel& model, std::vector<std::size_t>& 
         if (std::find(set.begin(), set.end(), e) == set.end()) others.push_back(model.effects[e]);
       const LikeliestProducts likeliest(model.geometry, model.table, model.patches,
                                         *fit_of(model, others)->residuals_um());
-      for (const LikelyForms& likely : likeliest.combs(face)) {
-        std::vector<Effect> with = one_form_for(model, set, likely.forms);
+      std::vector<std::vector<Effect>> forms;
+      for (LikelyForms& likely : likeliest.combs(face)) forms.push_back(std::move(likely.forms));
+      // (what is there on every other tooth with the other sign is no comb beside its mean)
+      const int z = model.geometry.teeth();
+      for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight})
+        if (z % 2 == 0) forms.push_back(alternating_waves(z, flank, face));
+      for (const std::vector<Effect>& some : forms) {
+        std::vector<Effect> with = one_form_for(model, set, some);
         if (with.empty()) continue;
         const double cost = cost_of(model, with);
         if (!(cost < least)) continue;
