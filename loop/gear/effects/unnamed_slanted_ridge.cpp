@@ -56,6 +56,15 @@ std::string end_of_line(const FlankGeometry& g, const EffectShape& shape, double
          (lower ? " at the lower end" : " at the upper end");
 }
 
+/// A line aslant of which most lies off the flanks is what stands at a corner.
+bool is_off_the_flanks(const FlankGeometry& g, const EffectShape& shape) {
+  constexpr double kMostlyOn = 0.35;
+  const double half = 0.5 * std::abs(shape[kOverProfile]);
+  const double on =
+      std::min(shape[kHeight] + half, g.face_width_mm()) - std::max(shape[kHeight] - half, 0.0);
+  return shape[kPerTurn] == 0.0 && on < kMostlyOn * 2.0 * half;
+}
+
 std::vector<EffectShape> ridges_beside(const FlankGeometry& g, const EffectShape& shape) {
   const double face = g.face_width_mm();
   std::vector<EffectShape> shapes;
@@ -76,6 +85,7 @@ std::vector<EffectShape> ridges_beside(const FlankGeometry& g, const EffectShape
       shapes.back()[kHeight] = 0.5 * face - turns * per_turn;
     }
   for (const double times : {0.7, 0.85, 0.95, 1.05, 1.18, 1.43}) add(kWidth, times * shape[kWidth]);
+  std::erase_if(shapes, [&](const EffectShape& beside) { return is_off_the_flanks(g, beside); });
   if (shape[kPerTurn] == 0.0) return shapes;
   for (const std::size_t end : {kFrom, kTo})
     for (const double turns : {-0.3, -0.1, -0.03, -0.01, -0.003, 0.003, 0.01, 0.03, 0.1, 0.3})

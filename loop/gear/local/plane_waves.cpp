@@ -18,9 +18,9 @@ namespace trueflank::loop {
 namespace {
 
 /// Of a scan's many values so many tell as much as is asked.
-constexpr std::size_t kRowsAsked = 2000, kFewestRowsAsked = 400;
+constexpr std::size_t kRowsAsked = 3000, kFewestRowsAsked = 400;
 /// Waves over the width of the gear: from ... in steps of ... to.
-constexpr double kFewestPlaneWaves = 0.5, kPlaneStep = 0.25, kMostPlaneWaves = 80.0;
+constexpr double kFewestPlaneWaves = 0.5, kPlaneStep = 0.25, kMostPlaneWaves = 120.0;
 
 /// Values at places, with the share of a shift along x and y that they see.
 struct PlaneValues {

@@ -29,7 +29,7 @@ struct PlaneWave {
   }
 };
 
-/// The likeliest wave in scanned flanks, from twice the gear to a fortieth of its radius, judged
+/// The likeliest wave in scanned flanks, from twice the gear to a sixtieth of its radius, judged
 /// against waves of other lengths of the same shift: what hangs together otherwise is none. None
 /// where another of another length is nearly as strong. A sawtooth, where that says clearly more.
 /// `row_um`: residuals of the table's rows; `used`: which rows are looked at.

@@ -133,7 +133,7 @@ struct RidgeLine {
 /// The best line over the profile; `level`: of those that are not aslant.
 RidgeLine best_ridge_over_profile(const RidgeSums& sums, double width, const RidgesIn& all,
                                   bool level) {
-  constexpr double kStep = 0.05, kMost = 2.5, kFewest = 2.0, kHeightStep = 0.02;
+  constexpr double kStep = 0.05, kMost = 2.5, kFewest = 2.0, kHeightStep = 0.02, kMostlyOn = 0.35;
   RidgeLine best{.width = width};
   const int most = level ? 0 : static_cast<int>(kMost / kStep);
   for (int k = -most; k <= most; ++k) {
@@ -141,8 +141,14 @@ RidgeLine best_ridge_over_profile(const RidgeSums& sums, double width, const Rid
     const double slope = k * kStep;
     for (double height = -0.1; height <= 1.1; height += kHeightStep) {
       RidgeSums::At line;
-      for (std::size_t x = 0; x < kRidgeAcross; ++x)
-        line += sums.at(x, height + slope * ((static_cast<double>(x) + 0.5) / kRidgeAcross - 0.5));
+      int on_flank = 0;
+      for (std::size_t x = 0; x < kRidgeAcross; ++x) {
+        const double at = height + slope * ((static_cast<double>(x) + 0.5) / kRidgeAcross - 0.5);
+        line += sums.at(x, at);
+        on_flank += at >= 0.0 && at <= 1.0 ? 1 : 0;
+      }
+      // (what stands at a corner alone is no line)
+      if (on_flank < kMostlyOn * kRidgeAcross) continue;
       if (const RidgeGain gain = gain_of_ridge(line, all); gain.gain > best.gain.gain)
         best = {gain, height, slope, width};
     }
@@ -167,6 +173,35 @@ RidgeLine best_ridge_around(const RidgeSums& sums, double width, const RidgesIn&
         if (const RidgeGain gain = gain_of_ridge(line, all); gain.gain > best.gain.gain)
           best = {gain, height, sign * rise, width};
       }
+  return best;
+}
+
+/// What the best form takes out that is most at a corner of the flanks.
+double best_at_a_corner(const RidgeCells& cells, const RidgesIn& all) {
+  constexpr double kPower = 1.5;
+  double best = 0.0;
+  for (const bool tip : {false, true})
+    for (const bool upper : {false, true})
+      for (const double over_profile : {0.25, 0.4, 0.65, 1.0})
+        for (const double over_face : {0.25, 0.4, 0.65, 1.0}) {
+          RidgeSums::At sums;
+          for (std::size_t x = 0; x < kRidgeAcross; ++x) {
+            const double u = (static_cast<double>(x) + 0.5) / kRidgeAcross,
+                         from_end = (tip ? 1.0 - u : u) / over_profile;
+            if (from_end >= 1.0) continue;
+            for (std::size_t v = 0; v < kRidgeHeights; ++v) {
+              const double w = (static_cast<double>(v) + 0.5) / kRidgeHeights,
+                           from_side = (upper ? 1.0 - w : w) / over_face;
+              if (from_side >= 1.0) continue;
+              const double b = std::pow((1.0 - from_end) * (1.0 - from_side), kPower);
+              const RidgeCell& cell = cells.of[x][v];
+              sums.product += b * cell.sum;
+              sums.first += b * cell.count;
+              sums.square += b * b * cell.count;
+            }
+          }
+          best = std::max(best, gain_of_ridge(sums, all).gain);
+        }
   return best;
 }
 
@@ -227,7 +262,7 @@ std::optional<SlantedRidge> likeliest_slanted_ridge(const FlankGeometry& geometr
                                                     const std::vector<bool>& used) {
   constexpr double kLooks = 1e5, kMostOfIt = 0.5, kAslant = 1.3;
   // (errors that hang together over a few cells follow some line: in variances of single values)
-  constexpr double kFarBeyond = 400.0;
+  constexpr double kFarBeyond = 400.0, kMoreThanACorner = 1.15;
   std::size_t rows = 0, taken = 0;
   for (std::size_t i = 0; i < table.rows.size(); ++i)
     rows += used[i] && table.rows[i].kind == ObservationKind::kScanFlank ? 1U : 0U;
@@ -285,6 +320,7 @@ std::optional<SlantedRidge> likeliest_slanted_ridge(const FlankGeometry& geometr
       if (gain < kMostOfIt * all.structure || gain < kAslant * level ||
           gain < kFarBeyond * all.variance)
         continue;
+      if (!around && gain < kMoreThanACorner * best_at_a_corner(in, all)) continue;
       const double square = gain * static_cast<double>(rows) / static_cast<double>(taken);
       if (best && square <= best->square) continue;
       // (the line over the profile stands at its height in the middle of it)

@@ -73,8 +73,11 @@ bool is_tooth_of(const Effect& effect, const CourseOverFlanks& course) {
   return effect.family == find_family("unnamed_tooth_form") && has_course(effect, 1, course);
 }
 
+/// (An even one from nothing is whole.)
 bool is_ramp_of(const Effect& effect, const CourseOverFlanks& course) {
-  return (effect.family == find_family("unnamed_ramp") ||
+  constexpr std::size_t kZeroOfRamp = 4;
+  return ((effect.family == find_family("unnamed_ramp") &&
+           effect.shape[kZeroOfRamp] == gear_effects::kMeanOfDrift) ||
           effect.family == find_family("unnamed_levelling")) &&
          has_course(effect, 1, course);
 }
@@ -253,15 +256,36 @@ Drifting from_nothing(const Effect& effect) {
 }  // namespace
 
 bool tell_from_nothing(PartModel& model) {
-  constexpr double kNothing = 9.0;  // chi-square
+  constexpr double kNothing = 9.0, kClearly = 36.0;  // chi-square
+  const auto loss_without = [](const PartModel& part, std::size_t e) {
+    std::vector<Effect> others = part.effects;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(e));
+    return fit_of(part, others)->residual_square() - fit_of(part, part.effects)->residual_square();
+  };
   const double now = fit_of(model, model.effects)->residual_square();
   for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
     const Effect& about_mean = model.effects[e];
+    // One that hardly levels off is even.
+    constexpr std::size_t kZeroOfLevelling = 6;
+    if (about_mean.family == find_family("unnamed_levelling") &&
+        about_mean.shape[kZeroOfLevelling] != gear_effects::kMeanOfDrift) {
+      const EffectShape& shape = about_mean.shape;
+      std::vector<Effect> with = model.effects;
+      with[e] = {find_family("unnamed_ramp"),
+                 about_mean.flank,
+                 {shape[0], shape[1], shape[2], shape[kOppositeOfDrift], shape[kZeroOfLevelling]}};
+      std::rotate(with.begin() + static_cast<std::ptrdiff_t>(e),
+                  with.begin() + static_cast<std::ptrdiff_t>(e) + 1, with.end());
+      if (fit_of(model, with)->residual_square() > now + kNothing) continue;
+      put_in_place_of(model, {e}, with);
+      return true;
+    }
     const Drifting drifting = from_nothing(about_mean);
     for (std::size_t level = first_told_here(model);
          !drifting.forms.empty() && level < model.effects.size(); ++level) {
       if (level == e || model.effects[level].flank != about_mean.flank ||
-          !is_level_of(model.geometry, model.effects[level], drifting.course, drifting.opposite))
+          !is_level_of(model.geometry, model.effects[level], drifting.course, drifting.opposite) ||
+          loss_without(model, level) < kClearly)
         continue;
       std::vector<Effect> best;
       double least = now + kNothing;
