@@ -164,8 +164,7 @@ bool tell_as_alternating_wave(PartModel& model) {
 
 std::vector<Effect> with_comb(const PartModel& model, std::vector<std::size_t>& these) {
   constexpr double kClearly = 20.0;  // chi-square
-  std::vector<Effect> best;
-  double least = cost_of(model, model.effects) - kClearly;
+  CheapestAnswer best{.least = cost_of(model, model.effects) - kClearly};
   for (const int face : {0, 1}) {
     std::vector<std::size_t> all, alike, names;
     for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
@@ -182,29 +181,21 @@ std::vector<Effect> with_comb(const PartModel& model, std::vector<std::size_t>& 
     }
     if (all.size() < 2 || alike.size() == all.size()) continue;
     for (const std::vector<std::size_t>& set : with_and_without(all, names)) {
-      std::vector<Effect> others;
-      for (std::size_t e = 0; e < model.effects.size(); ++e)
-        if (std::find(set.begin(), set.end(), e) == set.end()) others.push_back(model.effects[e]);
-      const LikeliestProducts likeliest(model.geometry, model.table, model.patches,
-                                        *fit_of(model, others)->residuals_um());
+      const LikeliestProducts likeliest(
+          model.geometry, model.table, model.patches,
+          *fit_of(model, without(model.effects, set))->residuals_um());
       std::vector<std::vector<Effect>> forms;
       for (LikelyForms& likely : likeliest.combs(face)) forms.push_back(std::move(likely.forms));
       // (what is there on every other tooth with the other sign is no comb beside its mean)
       const int z = model.geometry.teeth();
       for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight})
         if (z % 2 == 0) forms.push_back(alternating_waves(z, flank, face));
-      for (const std::vector<Effect>& some : forms) {
-        std::vector<Effect> with = one_form_for(model, set, some);
-        if (with.empty()) continue;
-        const double cost = cost_of(model, with);
-        if (!(cost < least)) continue;
-        least = cost;
-        best = std::move(with);
-        these = set;
-      }
+      for (const std::vector<Effect>& some : forms)
+        best.ask(model, one_form_for(model, set, some), set);
     }
   }
-  return best;
+  if (!best.effects.empty()) these = std::move(best.these);
+  return std::move(best.effects);
 }
 
 void tell_ghosts_of_teeth(PartModel& model) {

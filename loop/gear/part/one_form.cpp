@@ -388,6 +388,24 @@ std::vector<Effect> with_best_form(const PartModel& model, const std::vector<Eff
   return found;
 }
 
+std::vector<Effect> without(const std::vector<Effect>& effects,
+                            const std::vector<std::size_t>& these) {
+  std::vector<Effect> others;
+  for (std::size_t e = 0; e < effects.size(); ++e)
+    if (std::find(these.begin(), these.end(), e) == these.end()) others.push_back(effects[e]);
+  return others;
+}
+
+void CheapestAnswer::ask(const PartModel& model, std::vector<Effect> with,
+                         const std::vector<std::size_t>& of) {
+  if (with.empty()) return;
+  const double cost = cost_of(model, with);
+  if (!(cost < least)) return;
+  least = cost;
+  effects = std::move(with);
+  these = of;
+}
+
 std::vector<Effect> one_form_for(const PartModel& model, const std::vector<std::size_t>& these,
                                  const std::vector<Effect>& forms,
                                  const std::vector<Effect>& beside, int more_values) {

@@ -1,9 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "trueflank/loop/gear/part/part_model.h"
 
 namespace trueflank::loop {
+
+/// Effects without those at these places.
+[[nodiscard]] std::vector<Effect> without(const std::vector<Effect>& effects,
+                                          const std::vector<std::size_t>& these);
+
+/// The cheapest of some answers, and what its last effects stand for.
+struct CheapestAnswer {
+  double least = 1e300;  ///< what it must cost less than
+  std::vector<Effect> effects = {};
+  std::vector<std::size_t> these = {};
+
+  /// Keeps an answer that costs less; an empty one is none.
+  void ask(const PartModel& model, std::vector<Effect> with, const std::vector<std::size_t>& of);
+};
 
 /// The form that leaves least in place of the last effect: of each family the best by trial, of the
 /// best of these each in its place, then beside the others. Empty where all leave too much.

@@ -280,16 +280,13 @@ std::vector<Effect> with_wave_of_the_tool(const PartModel& model, std::vector<st
 std::vector<Effect> with_growing_wave(const PartModel& model, std::vector<std::size_t>& these) {
   constexpr double kSameLength = 0.15, kClearly = 30.0;  // kClearly: chi-square
   constexpr int kMoreValues = 2;
-  std::vector<Effect> best;
-  double least = cost_of(model, model.effects) - kClearly;
+  CheapestAnswer best{.least = cost_of(model, model.effects) - kClearly};
   for (const int face : {0, 1}) {
     const SetsOfAWave sets = sets_of_a_wave(model, face);
     for (const std::vector<std::size_t>& set : sets.sets) {
-      std::vector<Effect> others;
-      for (std::size_t e = 0; e < model.effects.size(); ++e)
-        if (std::find(set.begin(), set.end(), e) == set.end()) others.push_back(model.effects[e]);
-      const LikeliestProducts likeliest(model.geometry, model.table, model.patches,
-                                        *fit_of(model, others)->residuals_um());
+      const LikeliestProducts likeliest(
+          model.geometry, model.table, model.patches,
+          *fit_of(model, without(model.effects, set))->residuals_um());
       for (const LikelyForms& likely : likeliest.growing_waves(face)) {
         const double length_mm = likely.forms.front().shape[1];
         if (!sets.lengths_mm.empty() &&
@@ -297,17 +294,12 @@ std::vector<Effect> with_growing_wave(const PartModel& model, std::vector<std::s
               return std::abs(length_mm - own_mm) < kSameLength * own_mm;
             }))
           continue;
-        std::vector<Effect> with = one_form_for(model, set, likely.forms, {}, kMoreValues);
-        if (with.empty()) continue;
-        const double cost = cost_of(model, with);
-        if (!(cost < least)) continue;
-        least = cost;
-        best = std::move(with);
-        these = set;
+        best.ask(model, one_form_for(model, set, likely.forms, {}, kMoreValues), set);
       }
     }
   }
-  return best;
+  if (!best.effects.empty()) these = std::move(best.these);
+  return std::move(best.effects);
 }
 
 void tell_waves_of_a_form(PartModel& model) {

@@ -269,26 +269,19 @@ std::vector<Effect> cheapest_one_form(const PartModel& model,
                                       const std::vector<Effect>& beside,
                                       std::vector<std::size_t>& these) {
   constexpr double kMostOfIt = 0.8;  // of chi-square
-  std::vector<Effect> best;
-  double least = 1e300;
+  CheapestAnswer best;
   for (const std::vector<std::size_t>& set : sets) {
     if (set.empty()) continue;
     std::vector<Effect> with = one_form_for(model, set, forms, beside);
     if (with.empty()) continue;
-    std::vector<Effect> without = model.effects;
-    for (std::size_t i = set.size(); i-- > 0;)
-      without.erase(without.begin() + static_cast<std::ptrdiff_t>(set[i]));
-    const double none = fit_of(model, without)->residual_square();
+    const double none = fit_of(model, without(model.effects, set))->residual_square();
     if (none - fit_of(model, with)->residual_square() <
         kMostOfIt * (none - fit_of(model, model.effects)->residual_square()))
       continue;
-    const double cost = cost_of(model, with);
-    if (!(cost < least)) continue;
-    least = cost;
-    best = std::move(with);
-    these = set;
+    best.ask(model, std::move(with), set);
   }
-  return best;
+  if (!best.effects.empty()) these = std::move(best.these);
+  return std::move(best.effects);
 }
 
 void explain_with_whole_forms(PartModel& model) {
