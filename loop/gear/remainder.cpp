@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/gear/remainder.h"
-#include "trueflank/loop/gear/local/loud_places.h"
 
 #include <algorithm>
 #include <array>
@@ -13,8 +12,6 @@
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/threads.h"
 #include "trueflank/loop/discovery/course_scan.h"
-#include "trueflank/loop/discovery/loudness.h"
-#include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/discovery/own_relief.h"
 #include "trueflank/loop/discovery/trend_scan.h"
 #include "trueflank/loop/gear/effects/columns.h"
@@ -98,33 +95,6 @@ class RemainderSearch {
   }
 
  private:
-  /// How much louder than the usual one of its side each flank or trace is: to the moments of its
-  /// tooth.
-  static void tell_loudness(const std::vector<MemberScatter>& scatters,
-                            std::vector<ToothMoments>& moments) {
-    for (const int side : {0, 1}) {
-      std::vector<double> own, values;
-      std::vector<std::size_t> of_tooth;
-      for (const MemberScatter& one : scatters) {
-        if (one.set != side) continue;
-        own.push_back(one.scatter);
-        values.push_back(one.values);
-        of_tooth.push_back(ToothMoments::at(side, one.number));
-      }
-      const std::vector<double> loud = loudness_of(own, values).factors;
-      std::vector<double> known = own;
-      std::erase(known, 0.0);
-      const double usual = known.empty() ? 0.0 : median(std::move(known));
-      for (std::size_t k = 0; k < loud.size(); ++k) {
-        ToothMoments& of = moments[of_tooth[k]];
-        of.loud = std::max(of.loud, loud[k]);
-        if (!(usual > 0.0) || own[k] / usual <= of.scatter) continue;
-        of.scatter = own[k] / usual;
-        of.scatter_values = values[k];
-      }
-    }
-  }
-
   /// Which traces of a flank scatter more than the usual one.
   void tell_loud_traces() {
     for (const auto& [key, courses] : values_.courses) {

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/gear/remainder_values.h"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 
 #include "trueflank/base/threads.h"
+#include "trueflank/loop/discovery/loudness.h"
+#include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/gear/local/reading_steps.h"
 #include "trueflank/loop/gear/table/rows_by_class.h"
 
@@ -217,6 +221,30 @@ RemainderValues gather_values(const FlankGeometry& geometry, const Observations&
                               const Patches& patches, const std::vector<float>& row_um,
                               RemainderOf which, const std::vector<bool>& used) {
   return Gathering(geometry, table, patches, row_um, which, used).run();
+}
+
+void tell_loudness(const std::vector<MemberScatter>& scatters, std::vector<ToothMoments>& moments) {
+  for (const int side : {0, 1}) {
+    std::vector<double> own, values;
+    std::vector<std::size_t> of_tooth;
+    for (const MemberScatter& one : scatters) {
+      if (one.set != side) continue;
+      own.push_back(one.scatter);
+      values.push_back(one.values);
+      of_tooth.push_back(ToothMoments::at(side, one.number));
+    }
+    const std::vector<double> loud = loudness_of(own, values).factors;
+    std::vector<double> known = own;
+    std::erase(known, 0.0);
+    const double usual = known.empty() ? 0.0 : median(std::move(known));
+    for (std::size_t k = 0; k < loud.size(); ++k) {
+      ToothMoments& of = moments[of_tooth[k]];
+      of.loud = std::max(of.loud, loud[k]);
+      if (!(usual > 0.0) || own[k] / usual <= of.scatter) continue;
+      of.scatter = own[k] / usual;
+      of.scatter_values = values[k];
+    }
+  }
 }
 
 }  // namespace trueflank::loop

@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "trueflank/loop/discovery/rougher_members.h"
 #include "trueflank/loop/gear/local/remainder_courses.h"
 #include "trueflank/loop/gear/remainder_around.h"
 
@@ -26,5 +27,9 @@ struct RemainderValues {
                                             const Observations& table, const Patches& patches,
                                             const std::vector<float>& row_um, RemainderOf which,
                                             const std::vector<bool>& used);
+
+/// How much louder than the usual one of its side each flank or trace is: to the moments of its
+/// tooth.
+void tell_loudness(const std::vector<MemberScatter>& scatters, std::vector<ToothMoments>& moments);
 
 }  // namespace trueflank::loop

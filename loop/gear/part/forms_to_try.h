@@ -78,5 +78,10 @@ inline constexpr int kMostOfComb = 8;  ///< one tooth in so many, at most
 /// All of these where they are more than two, every two, and each by itself.
 [[nodiscard]] std::vector<std::vector<std::size_t>> all_pairs_and_each(
     const std::vector<std::size_t>& all);
+/// An S over all of the profile (0) or the face (1).
+[[nodiscard]] Effect s_over(int face, FlankChoice flank);
+/// Forms along the profile (0) or the face (1), and an S.
+[[nodiscard]] std::vector<Effect> forms_and_s_along(const FlankGeometry& geometry, int face,
+                                                    FlankChoice flank);
 
 }  // namespace trueflank::loop

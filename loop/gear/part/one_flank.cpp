@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "trueflank/loop/gear/part/forms_to_try.h"
+#include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/runs_along.h"
 
@@ -170,6 +171,69 @@ void tell_what_one_flank_has(PartModel& model) {
   (void)tell_comb_of_one_flank(model);
   (void)tell_level_of_one_flank(model);
   (void)tell_level_in_two_pieces(model);
+}
+
+bool tell_as_form_of_other_flanks(PartModel& model, int face) {
+  constexpr int kFewestValues = 3, kValuesOfWaves = 6;
+  const Runs runs = face == 0 ? Runs::kOverProfile : Runs::kOverFace;
+  std::vector<std::size_t> all, levels;
+  bool one_flank = false, both = false, equal = false;
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    const Runs own = runs_of(model.geometry, model.effects[e], Flanks::kOfEither);
+    const bool on_one = model.effects[e].flank != FlankChoice::kBoth;
+    if (own == Runs::kNowhere) levels.push_back(e);
+    if (own != runs) continue;
+    all.push_back(e);
+    one_flank = one_flank || on_one;
+    const bool opposite = !on_one && runs_of(model.geometry, model.effects[e]) == Runs::kOtherwise;
+    both = both || opposite;
+    equal = equal || !(on_one || opposite);
+  }
+  // What is equal on both flanks and what is opposite on them may leave one of them alone.
+  one_flank = one_flank || (both && equal);
+  std::vector<Effect> own;
+  for (const std::size_t e : all) own.push_back(model.effects[e]);
+  if (all.size() < 2 || !(one_flank || both) || values_of(own, true) < kFewestValues) return false;
+  std::vector<std::vector<std::size_t>> sets{all};
+  if (!levels.empty()) {
+    sets.insert(sets.begin(), all);
+    sets.front().insert(sets.front().end(), levels.begin(), levels.end());
+    std::sort(sets.front().begin(), sets.front().end());
+  }
+  // (beside a form of one flank the others may be one of the other)
+  for (const std::size_t e : all)
+    if ((model.effects[e].family->named || model.effects[e].flank != FlankChoice::kBoth) &&
+        all.size() > 2) {
+      sets.push_back(all);
+      std::erase(sets.back(), e);
+    }
+  std::vector<Effect> opposite;
+  for (Effect form : forms_along(model.geometry, face, FlankChoice::kBoth, true)) {
+    form.shape.push_back(1.0);
+    opposite.push_back(std::move(form));
+  }
+  for (const std::vector<std::size_t>& these : sets) {
+    if (put_one_form_for(model, these, opposite)) return true;
+    for (const FlankChoice flank : {FlankChoice::kLeft, FlankChoice::kRight})
+      if (one_flank &&
+          put_one_form_for(model, these, forms_and_s_along(model.geometry, face, flank)))
+        return true;
+  }
+  // Beside a name that these pieces have taken up.
+  for (const Effect& name : names_along(model, face, true)) {
+    if (name.flank != FlankChoice::kBoth || std::find(own.begin(), own.end(), name) != own.end())
+      continue;
+    for (const std::vector<std::size_t>& these : sets)
+      for (const FlankChoice flank : {FlankChoice::kLeft, FlankChoice::kRight})
+        if (one_flank &&
+            put_one_form_for(model, these, forms_and_s_along(model.geometry, face, flank), {name}))
+          return true;
+  }
+  if (values_of(own, true) <= kValuesOfWaves) return false;
+  for (const Effect& right : long_waves(model.geometry, face, FlankChoice::kRight))
+    if (put_one_form_for(model, all, {{right.family, FlankChoice::kLeft, right.shape}}, {right}))
+      return true;
+  return false;
 }
 
 }  // namespace trueflank::loop

@@ -11,5 +11,9 @@ namespace trueflank::loop {
 /// and is somewhere as designed, and the other has none. So is a level of both that a wide form of
 /// one takes out again: the other flank stands out.
 void tell_what_one_flank_has(PartModel& model);
+/// A form of one flank, or of both in opposite directions, along the profile (0) or the face (1),
+/// for what runs that way on any flank: slopes that turn the section and bows of either flank were
+/// what it is made of. Or waves of one length on either flank, each in a phase of its own.
+[[nodiscard]] bool tell_as_form_of_other_flanks(PartModel& model, int face);
 
 }  // namespace trueflank::loop

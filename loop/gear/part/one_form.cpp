@@ -19,6 +19,7 @@
 #include "trueflank/loop/gear/part/forms_of_runs.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/names_beside_forms.h"
+#include "trueflank/loop/gear/part/one_flank.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/products.h"
 #include "trueflank/loop/gear/part/runs_along.h"
@@ -72,20 +73,6 @@ FlankCells cells_for(const FlankGeometry& geometry, const std::vector<Effect>& e
       form.shape[static_cast<std::size_t>(length - names.begin())] * kAlong < kShortest * range_mm)
     return {};
   return profile ? FlankCells{kAlong, 1} : FlankCells{1, kAlong};
-}
-
-/// An S over all of the profile (0) or the face (1).
-Effect s_over(int face, FlankChoice flank) {
-  Effect s_shape = slope_over(face, flank);
-  for (const std::size_t along : {0, 1}) s_shape.shape[along] *= 3.0;
-  return s_shape;
-}
-
-/// Forms along the profile (0) or the face (1), and an S.
-std::vector<Effect> forms_and_s_along(const FlankGeometry& geometry, int face, FlankChoice flank) {
-  std::vector<Effect> forms = forms_along(geometry, face, flank, true);
-  forms.push_back(s_over(face, flank));
-  return forms;
 }
 
 /// Few teeth show a wave over the profile, the same on every tooth, as orders around the gear.
@@ -146,72 +133,6 @@ bool tell_as_form_beside_slope(PartModel& model, const std::vector<std::size_t>&
 bool put_dish_for(PartModel& model, const std::vector<std::size_t>& these, FlankChoice flank) {
   for (const char* family : {"unnamed_dish", "unnamed_patch"})
     if (put_one_form_for(model, these, dishes(model.geometry, flank, family))) return true;
-  return false;
-}
-
-/// A form of one flank, or of both in opposite directions, along the profile (0) or the face (1),
-/// for what runs that way on any flank: slopes that turn the section and bows of either flank were
-/// what it is made of. Or waves of one length on either flank, each in a phase of its own.
-bool tell_as_form_of_other_flanks(PartModel& model, int face) {
-  constexpr int kFewestValues = 3, kValuesOfWaves = 6;
-  const Runs runs = face == 0 ? Runs::kOverProfile : Runs::kOverFace;
-  std::vector<std::size_t> all, levels;
-  bool one_flank = false, both = false, equal = false;
-  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
-    const Runs own = runs_of(model.geometry, model.effects[e], Flanks::kOfEither);
-    const bool on_one = model.effects[e].flank != FlankChoice::kBoth;
-    if (own == Runs::kNowhere) levels.push_back(e);
-    if (own != runs) continue;
-    all.push_back(e);
-    one_flank = one_flank || on_one;
-    const bool opposite = !on_one && runs_of(model.geometry, model.effects[e]) == Runs::kOtherwise;
-    both = both || opposite;
-    equal = equal || !(on_one || opposite);
-  }
-  // What is equal on both flanks and what is opposite on them may leave one of them alone.
-  one_flank = one_flank || (both && equal);
-  std::vector<Effect> own;
-  for (const std::size_t e : all) own.push_back(model.effects[e]);
-  if (all.size() < 2 || !(one_flank || both) || values_of(own, true) < kFewestValues) return false;
-  std::vector<std::vector<std::size_t>> sets{all};
-  if (!levels.empty()) {
-    sets.insert(sets.begin(), all);
-    sets.front().insert(sets.front().end(), levels.begin(), levels.end());
-    std::sort(sets.front().begin(), sets.front().end());
-  }
-  // (beside a form of one flank the others may be one of the other)
-  for (const std::size_t e : all)
-    if ((model.effects[e].family->named || model.effects[e].flank != FlankChoice::kBoth) &&
-        all.size() > 2) {
-      sets.push_back(all);
-      std::erase(sets.back(), e);
-    }
-  std::vector<Effect> opposite;
-  for (Effect form : forms_along(model.geometry, face, FlankChoice::kBoth, true)) {
-    form.shape.push_back(1.0);
-    opposite.push_back(std::move(form));
-  }
-  for (const std::vector<std::size_t>& these : sets) {
-    if (put_one_form_for(model, these, opposite)) return true;
-    for (const FlankChoice flank : {FlankChoice::kLeft, FlankChoice::kRight})
-      if (one_flank &&
-          put_one_form_for(model, these, forms_and_s_along(model.geometry, face, flank)))
-        return true;
-  }
-  // Beside a name that these pieces have taken up.
-  for (const Effect& name : names_along(model, face, true)) {
-    if (name.flank != FlankChoice::kBoth || std::find(own.begin(), own.end(), name) != own.end())
-      continue;
-    for (const std::vector<std::size_t>& these : sets)
-      for (const FlankChoice flank : {FlankChoice::kLeft, FlankChoice::kRight})
-        if (one_flank &&
-            put_one_form_for(model, these, forms_and_s_along(model.geometry, face, flank), {name}))
-          return true;
-  }
-  if (values_of(own, true) <= kValuesOfWaves) return false;
-  for (const Effect& right : long_waves(model.geometry, face, FlankChoice::kRight))
-    if (put_one_form_for(model, all, {{right.family, FlankChoice::kLeft, right.shape}}, {right}))
-      return true;
   return false;
 }
 

@@ -12,12 +12,12 @@
 #include "trueflank/loop/gear/part/other_starts.h"
 #include "trueflank/loop/gear/part/parts_of_forms.h"
 #include "trueflank/loop/gear/part/records.h"
-#include "trueflank/loop/gear/part/repeating_waves.h"
 #include "trueflank/loop/gear/part/settled_names.h"
 #include "trueflank/loop/gear/part/single_teeth.h"
 #include "trueflank/loop/gear/part/structure_left.h"
 #include "trueflank/loop/gear/part/taken_up.h"
 #include "trueflank/loop/gear/part/tidying.h"
+#include "trueflank/loop/gear/part/waves.h"
 #include "trueflank/loop/gear/part/whole_forms.h"
 
 namespace trueflank::loop {
