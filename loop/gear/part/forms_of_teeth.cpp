@@ -4,6 +4,7 @@
 #include "trueflank/loop/gear/part/forms_of_teeth.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -31,12 +32,26 @@ Effect form_of_one(int tooth, double profile, double face, FlankChoice flank, bo
           {static_cast<double>(tooth), profile, face, opposite ? 1.0 : 0.0}};
 }
 
-std::vector<Effect> leans_and_bends(int tooth, FlankChoice flank) {
+/// Along the profile (0) and the face (1): whether a tooth was traced or scanned there. (A single
+/// value on either end of a tooth is no lean of it.)
+std::array<bool, 2> is_seen_along(const Patches& patches, int tooth) {
+  std::array<bool, 2> seen{};
+  for (const Patches::Patch& patch : patches.patches) {
+    if (patch.places.front().place.tooth != tooth) continue;
+    const bool scan = patch.kind == ObservationKind::kScanFlank;
+    seen[0] = seen[0] || scan || patch.kind == ObservationKind::kProfile;
+    seen[1] = seen[1] || scan || patch.kind == ObservationKind::kHelix;
+  }
+  return seen;
+}
+
+std::vector<Effect> leans_and_bends(const Patches& patches, int tooth, FlankChoice flank) {
   std::vector<Effect> forms;
+  const std::array<bool, 2> seen = is_seen_along(patches, tooth);
   for (const double degree : {1.0, 2.0})
     for (const bool face : {false, true})
       for (const bool opposite : {false, true})
-        if (!opposite || flank == FlankChoice::kBoth)
+        if (seen[face ? 1 : 0] && (!opposite || flank == FlankChoice::kBoth))
           forms.push_back(
               form_of_one(tooth, face ? 0.0 : degree, face ? degree : 0.0, flank, opposite));
   return forms;
@@ -78,7 +93,8 @@ void tell_tooth_of_sectors(PartModel& model) {
   for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
     std::vector<Effect> forms;
     for (const int tooth : teeth)
-      for (Effect& form : leans_and_bends(tooth, flank)) forms.push_back(std::move(form));
+      for (Effect& form : leans_and_bends(model.patches, tooth, flank))
+        forms.push_back(std::move(form));
     if (put_one_form_for(model, all, forms) ||
         (these != all && put_one_form_for(model, these, forms)))
       return;
@@ -239,7 +255,7 @@ void tell_forms_of_teeth(PartModel& model) {
       teeth.insert(static_cast<int>(model.effects[e].shape[0]));
   for (const int tooth : teeth) {
     const auto put = [&](const std::vector<std::size_t>& these, FlankChoice flank) {
-      const std::vector<Effect> forms = leans_and_bends(tooth, flank);
+      const std::vector<Effect> forms = leans_and_bends(model.patches, tooth, flank);
       return put_one_form_for(model, these, forms) ||
              put_one_form_for(model, these, forms, {form_of_one(tooth, 0.0, 0.0, flank, false)});
     };

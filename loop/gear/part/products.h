@@ -15,4 +15,11 @@ namespace trueflank::loop {
 /// tooth: a taper, a twist and a bow of a cure that reaches less far down.
 [[nodiscard]] bool tell_as_product(PartModel& model);
 
+/// The answer with a form along traces that grows from nothing across them, the last, in place of
+/// these, where profiles were traced at several heights or leads at several diameters: a hollow
+/// that is deeper towards one end was told as its mean, with a name. Empty where none says clearly
+/// more.
+[[nodiscard]] std::vector<Effect> with_form_growing_across(const PartModel& model,
+                                                           std::vector<std::size_t>& these);
+
 }  // namespace trueflank::loop

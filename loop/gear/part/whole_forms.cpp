@@ -231,6 +231,7 @@ bool take_up_whole_forms(PartModel& model) {
   if (with.empty()) with = with_one_side(model, these);
   if (with.empty()) with = with_reversal(model, these);
   if (with.empty()) with = with_products(model, these);
+  if (with.empty()) with = with_form_growing_across(model, these);
   if (with.empty()) with = with_comb(model, these);
   if (with.empty()) with = with_growing_wave(model, these);
   if (with.empty()) with = with_phase_of_each_flank(model, these);

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Forms along traces that grow from trace to trace of a flank: profiles at several heights, leads
+// at several diameters. What they have in the mean was told as a form, or a name, alike all over.
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/effects/simple_courses.h"
+#include "trueflank/loop/gear/part/one_form.h"
+#include "trueflank/loop/gear/part/products.h"
+#include "trueflank/loop/gear/part/runs_along.h"
+
+namespace trueflank::loop {
+namespace {
+
+using gear_effects::FlankCourse;
+
+/// Whether profiles (0) were traced at heights, and leads (1) at diameters, that lie far apart.
+std::array<bool, 2> are_traced_apart(const PartModel& model) {
+  constexpr double kApart = 0.4;  // of half the way from end to end
+  std::array<double, 2> least{1e300, 1e300}, most{-1e300, -1e300};
+  for (const Patches::Patch& patch : model.patches.patches) {
+    const bool profile = patch.kind == ObservationKind::kProfile;
+    if (!profile && patch.kind != ObservationKind::kHelix) continue;
+    const Place& place = patch.places.front().place;
+    const double at = profile ? model.geometry.face_coordinate(place.z_mm)
+                              : model.geometry.profile_coordinate(place.roll_mm);
+    least[profile ? 0 : 1] = std::min(least[profile ? 0 : 1], at);
+    most[profile ? 0 : 1] = std::max(most[profile ? 0 : 1], at);
+  }
+  return {most[0] - least[0] > kApart, most[1] - least[1] > kApart};
+}
+
+/// Courses over the profile (0) or the face (1), of which there is nothing at one end of the other
+/// direction and evenly more towards the other.
+std::vector<Effect> growing_courses(const FlankGeometry& geometry, int along, FlankChoice flank) {
+  const auto other = static_cast<double>(1 - along);
+  std::vector<Effect> forms;
+  for (const FlankCourse& course : gear_effects::courses_over(geometry, along)) {
+    if (course.kind == FlankCourse::kWhole) continue;
+    for (const double towards : {-1.0, 1.0}) {
+      const FlankCourse growth{FlankCourse::kKink,
+                               gear_effects::place_at(geometry, other, towards > 0.0 ? 0.0 : 1.0),
+                               towards};
+      EffectShape shape(2 * FlankCourse::kValues + 1);
+      course.put_in(shape, along == 0 ? 0 : FlankCourse::kValues);
+      growth.put_in(shape, along == 0 ? FlankCourse::kValues : 0);
+      forms.push_back({find_family("unnamed_crossed"), flank, std::move(shape)});
+    }
+  }
+  return forms;
+}
+
+}  // namespace
+
+std::vector<Effect> with_form_growing_across(const PartModel& model,
+                                             std::vector<std::size_t>& these) {
+  constexpr double kClearly = 25.0;  // chi-square
+  constexpr int kMoreValues = 2;
+  if (!model.table->points_mm.empty() || model.options.joined) return {};
+  const std::array<bool, 2> apart = are_traced_apart(model);
+  if (!apart[0] && !apart[1]) return {};
+  CheapestAnswer best{.least = cost_of(model, model.effects) - kClearly};
+  for (const int along : {0, 1}) {
+    if (!apart[static_cast<std::size_t>(along)]) continue;
+    const Runs runs = along == 0 ? Runs::kOverProfile : Runs::kOverFace;
+    std::vector<std::size_t> all, with_orders;
+    for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+      const bool runs_here = runs_of(model.geometry, model.effects[e], Flanks::kOfEither) == runs;
+      const bool order = along == 0 && model.effects[e].family->tells_order_along_profile;
+      if (runs_here) all.push_back(e);
+      if (runs_here || order) with_orders.push_back(e);
+    }
+    if (all.empty()) continue;
+    std::vector<std::vector<std::size_t>> sets{all};
+    if (with_orders.size() > all.size()) sets.push_back(with_orders);
+    if (all.size() > 1)
+      for (const std::size_t e : all) sets.push_back({e});
+    for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
+      const std::vector<Effect> forms = growing_courses(model.geometry, along, flank);
+      for (const std::vector<std::size_t>& set : sets)
+        best.ask(model, one_form_for(model, set, forms, {}, kMoreValues), set);
+    }
+  }
+  if (!best.effects.empty()) these = std::move(best.these);
+  return std::move(best.effects);
+}
+
+}  // namespace trueflank::loop
