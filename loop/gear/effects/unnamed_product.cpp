@@ -10,17 +10,21 @@
 namespace trueflank::loop::gear_effects {
 namespace {
 
-constexpr double kTowardsLow = -1.0, kTowardsHigh = 1.0, kTowardsBoth = 0.0;
+constexpr double kTowardsLow = -1.0, kTowardsHigh = 1.0, kTowardsBoth = 0.0, kTowardsMiddle = 2.0;
 
-/// 0 at the far end (of both ends: in the middle), 1 where it is most.
+/// 0 at the far end (of both ends: in the middle; of the middle: at both ends), 1 where it is most.
 double grown(double x, double towards, double power) {
   if (towards == kTowardsBoth) return x * x;
+  if (towards == kTowardsMiddle) return 1.0 - x * x;
   const double share = 0.5 * (towards == kTowardsHigh ? 1.0 + x : 1.0 - x);
   return power == 1.0 ? share : power == 2.0 ? share * share : share * share * share;
 }
 
+bool is_of_an_end(double towards) { return towards == kTowardsLow || towards == kTowardsHigh; }
+
 std::string in_words(double towards, double power, const std::array<const char*, 2>& ends) {
   if (towards == kTowardsBoth) return std::string("both ends of the ") + ends[0];
+  if (towards == kTowardsMiddle) return std::string("the middle of the ") + ends[0];
   return std::string("the ") + ends[towards == kTowardsHigh ? 1 : 0] +
          (power == 1.0   ? " evenly"
           : power == 2.0 ? " by the square"
@@ -64,23 +68,24 @@ EffectFamily unnamed_product() {
     const EffectShape& shape = told.shape;
     const bool opposite = shape[4] != 0.0;
     return "the same on every tooth, " + grows(told.sign(), opposite) + " towards " +
-           in_words(shape[0], shape[1], {shape[0] == kTowardsBoth ? "profile" : "root", "tip"}) +
+           in_words(shape[0], shape[1], {is_of_an_end(shape[0]) ? "root" : "profile", "tip"}) +
            ", and that the more, towards " +
            in_words(shape[2], shape[3],
-                    {shape[2] == kTowardsBoth ? "face" : "lower end", "upper end"}) +
+                    {is_of_an_end(shape[2]) ? "lower end" : "face", "upper end"}) +
            (opposite ? ", opposite on the two flanks" : "");
   };
   return f;
 }
 
 std::vector<Effect> products(FlankChoice flank) {
-  constexpr std::array<std::array<double, 2>, 7> kCourses{{{kTowardsLow, 1.0},
+  constexpr std::array<std::array<double, 2>, 8> kCourses{{{kTowardsLow, 1.0},
                                                            {kTowardsLow, 2.0},
                                                            {kTowardsLow, 3.0},
                                                            {kTowardsHigh, 1.0},
                                                            {kTowardsHigh, 2.0},
                                                            {kTowardsHigh, 3.0},
-                                                           {kTowardsBoth, 2.0}}};
+                                                           {kTowardsBoth, 2.0},
+                                                           {kTowardsMiddle, 2.0}}};
   std::vector<Effect> forms;
   for (const auto& profile : kCourses)
     for (const auto& face : kCourses)

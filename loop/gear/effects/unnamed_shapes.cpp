@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
@@ -41,10 +42,11 @@ EffectFamily on_either_flank(EffectFamily f) {
   };
   f.shape_names.emplace_back("opposite_flanks");
   f.term_keys.push_back({"flanks", TermKey::Kind::kWord, {"equal", "opposite"}});
-  f.evaluate = [evaluate = f.evaluate, opposite](const FlankGeometry& g, const Place& p,
-                                                 const EffectShape& shape, double* c) {
+  const int count = f.columns ? f.columns({}) : 1;
+  f.evaluate = [evaluate = f.evaluate, opposite, count](const FlankGeometry& g, const Place& p,
+                                                        const EffectShape& shape, double* c) {
     evaluate(g, p, shape, c);
-    if (p.side < 0 && opposite(shape)) c[0] = -c[0];
+    if (p.side < 0 && opposite(shape)) std::transform(c, c + count, c, std::negate());
   };
   f.nearby = [nearby = f.nearby](const FlankGeometry& g, const EffectShape& shape) {
     std::vector<EffectShape> shapes = nearby(g, shape);
@@ -419,10 +421,15 @@ EffectFamily unnamed_waviness() {
   f.term_keys = {kAlong, number("wavelength_mm")};
   f.words = [](const ToldForm& told) {
     const EffectShape& shape = told.shape;
+    const bool opposite = is_opposite(shape, 2);
+    const std::string crest = first_crest(told);
     return "the same on every tooth, " + waves_over(told.geometry, shape[0], shape[1]) +
-           first_crest(told);
+           opposite_words(opposite) + crest +
+           (!opposite || crest.empty()                                ? ""
+            : flank_side(Flank::kLeft, told.geometry.gear().kind) > 0 ? " on the left ones"
+                                                                      : " on the right ones");
   };
-  return f;
+  return on_either_flank(std::move(f));
 }
 
 namespace {

@@ -460,7 +460,8 @@ void tell_as_one_form(PartModel& model) {
         tell_as_field(model) || tell_as_facing(model) || tell_as_product(model) ||
         tell_as_corner(model) || tell_as_dish_of_all_flanks(model) ||
         tell_as_alternating_wave(model) || tell_as_walking_waves(model) ||
-        tell_as_name_with_a_place(model, 0) || tell_as_name_with_a_place(model, 1))
+        tell_as_waves_of_both_flanks(model) || tell_as_name_with_a_place(model, 0) ||
+        tell_as_name_with_a_place(model, 1))
       return true;
     for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
       std::array<std::vector<std::size_t>, 2> along;  // profile, face

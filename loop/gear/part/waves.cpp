@@ -480,6 +480,44 @@ bool tell_as_walking_waves(PartModel& model) {
   return false;
 }
 
+bool tell_as_waves_of_both_flanks(PartModel& model) {
+  constexpr double kAlike = 0.02, kNone = 0.25;  // of their length; of a wave
+  const EffectFamily *waviness = find_family("unnamed_waviness"),
+                     *marks = find_family("unnamed_marks");
+  struct WaveOfOne {
+    std::size_t effect = 0;
+    double face = 0.0, length_mm = 0.0;
+  };
+  std::map<FlankChoice, std::vector<WaveOfOne>> waves;
+  const double profile_mm =
+      std::abs(model.geometry.tip_form_roll_mm() - model.geometry.root_form_roll_mm());
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    const auto& [family, flank, shape] = model.effects[e];
+    if (flank == FlankChoice::kBoth) continue;
+    if (family == waviness) waves[flank].push_back({e, shape[0], shape[1]});
+    if (family != marks || shape[2] != 0.0) continue;
+    if (std::abs(shape[0]) < kNone && std::abs(shape[1]) > kNone)
+      waves[flank].push_back({e, 1.0, model.geometry.face_width_mm() / std::abs(shape[1])});
+    if (std::abs(shape[1]) < kNone && std::abs(shape[0]) > kNone)
+      waves[flank].push_back({e, 0.0, profile_mm / std::abs(shape[0])});
+  }
+  for (const WaveOfOne& left : waves[FlankChoice::kLeft])
+    for (const WaveOfOne& right : waves[FlankChoice::kRight]) {
+      if (left.face != right.face ||
+          std::abs(left.length_mm - right.length_mm) > kAlike * left.length_mm)
+        continue;
+      std::vector<Effect> forms;
+      for (const double length_mm : {left.length_mm, right.length_mm})
+        for (const double opposite : {0.0, 1.0})
+          forms.push_back({waviness, FlankChoice::kBoth, {left.face, length_mm, opposite}});
+      if (put_one_form_for(
+              model, {std::min(left.effect, right.effect), std::max(left.effect, right.effect)},
+              forms))
+        return true;
+    }
+  return false;
+}
+
 void tell_waves_as_pattern(PartModel& model) {
   constexpr int kFewest = 3, kMost = 8, kOfMachines = 7;
   constexpr double kNothing = 4.0;  // chi-square

@@ -49,6 +49,9 @@ void tell_waves_of_a_form(PartModel& model);
 /// Waves of one side, about alike over the flank, of orders beside each other are one whose periods
 /// a turn are no whole number.
 [[nodiscard]] bool tell_as_walking_waves(PartModel& model);
+/// Waves of one length along the flanks, told of either flank, are one wave of both, in phase or
+/// opposite: an axis that is in waves lifts one flank where it lowers the other.
+[[nodiscard]] bool tell_as_waves_of_both_flanks(PartModel& model);
 /// Waves of a scan that come again with every so many teeth, each tooth as it stands, are the
 /// values of so many teeth that repeat: told as that pattern where it leaves no more. One wave by
 /// itself is a pattern of three teeth, where it has more periods a turn than waves of machines
