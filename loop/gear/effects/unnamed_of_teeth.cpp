@@ -89,8 +89,9 @@ EffectFamily of_teeth(EffectFamily form) {
 
 std::vector<EffectFamily> forms_of_teeth() {
   std::vector<EffectFamily> families;
-  for (EffectFamily form : {unnamed_step(), unnamed_kink(), unnamed_bend(), unnamed_rise(),
-                            unnamed_band(), unnamed_dish(), unnamed_waviness()})
+  for (EffectFamily form :
+       {unnamed_step(), unnamed_kink(), unnamed_bend(), unnamed_rise(), unnamed_band(),
+        unnamed_dish(), unnamed_waviness(), unnamed_slanted_ridge(), unnamed_corner()})
     families.push_back(of_teeth(std::move(form)));
   return families;
 }

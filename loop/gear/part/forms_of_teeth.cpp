@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "trueflank/base/units.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/one_form.h"
@@ -23,6 +24,20 @@ namespace {
 
 bool is_on_one_tooth(const Effect& effect) {
   return effect.family->local || effect.family->is_of_one_tooth;
+}
+
+/// The tooth that an effect is on alone, also as a place of the body that is narrower than it; 0:
+/// it is on no one tooth.
+int tooth_of(const FlankGeometry& geometry, const Effect& effect) {
+  constexpr double kNarrow = 0.3;  // of a pitch, to either side
+  if (is_on_one_tooth(effect)) return static_cast<int>(effect.shape[0]);
+  if (effect.family != find_family("unnamed_body_place") || effect.shape[0] != 1.0) return 0;
+  const double pitch_deg = 360.0 / geometry.teeth();
+  if (effect.shape[3] > kNarrow * pitch_deg) return 0;
+  const double off = (effect.shape[2] - deg_from_rad(geometry.centre_rad(1))) / pitch_deg;
+  return (static_cast<int>(std::lround(off)) % geometry.teeth() + geometry.teeth()) %
+             geometry.teeth() +
+         1;
 }
 
 /// A tooth that leans or bends over profile or face, or stands out.
@@ -244,15 +259,14 @@ void tell_forms_of_teeth(PartModel& model) {
   const auto on_tooth = [&](int tooth, const auto& is_asked) {
     std::vector<std::size_t> these;
     for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e)
-      if (is_on_one_tooth(model.effects[e]) &&
-          static_cast<int>(model.effects[e].shape[0]) == tooth && is_asked(model.effects[e]))
+      if (tooth_of(model.geometry, model.effects[e]) == tooth && is_asked(model.effects[e]))
         these.push_back(e);
     return these;
   };
   std::set<int> teeth;
   for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e)
-    if (is_on_one_tooth(model.effects[e]))
-      teeth.insert(static_cast<int>(model.effects[e].shape[0]));
+    if (const int tooth = tooth_of(model.geometry, model.effects[e]); tooth != 0)
+      teeth.insert(tooth);
   for (const int tooth : teeth) {
     const auto put = [&](const std::vector<std::size_t>& these, FlankChoice flank) {
       const std::vector<Effect> forms = leans_and_bends(model.patches, tooth, flank);
@@ -262,7 +276,12 @@ void tell_forms_of_teeth(PartModel& model) {
     const std::vector<std::size_t> all = on_tooth(tooth, [](const Effect&) { return true; });
     std::set<FlankChoice> flanks;
     for (const std::size_t e : all) flanks.insert(model.effects[e].flank);
+    const bool on_both = flanks.size() > 1 || flanks.count(FlankChoice::kBoth) > 0;
     if (flanks.size() > 1 && put(all, FlankChoice::kBoth)) continue;
+    if (on_both &&
+        put_one_form_for(model, all,
+                         on_teeth(corners(model.geometry, FlankChoice::kBoth), tooth, 1.0)))
+      continue;
     for (const FlankChoice flank : {FlankChoice::kLeft, FlankChoice::kRight}) {
       const std::vector<std::size_t> these =
           on_tooth(tooth, [&](const Effect& effect) { return effect.flank == flank; });
@@ -270,10 +289,12 @@ void tell_forms_of_teeth(PartModel& model) {
       const auto put_own = [&](const std::vector<Effect>& forms) {
         return put_one_form_for(model, these, on_teeth(forms, tooth, 1.0));
       };
-      bool is_one = false;
+      // (lines aslant are several spots)
+      bool is_one = these.size() > 1 && put_own(lines_aslant(model.geometry, flank));
       for (const double face : {0.0, 1.0})
         is_one = is_one || put_own(steps_along(model.geometry, face, flank)) ||
                  put_own(forms_along(model.geometry, face, flank, false));
+      is_one = is_one || put_own(corners(model.geometry, flank));
       // (a spot that ends softly is many sharp ones)
       if (!is_one) put_own(dishes(model.geometry, flank, "unnamed_dish"));
     }

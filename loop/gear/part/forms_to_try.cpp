@@ -142,6 +142,20 @@ std::vector<Effect> dishes(const FlankGeometry& geometry, FlankChoice flank, con
   return forms;
 }
 
+std::vector<Effect> lines_aslant(const FlankGeometry& geometry, FlankChoice flank) {
+  const double face_mm = geometry.face_width_mm();
+  std::vector<Effect> forms;
+  for (const double rise : {0.3, 0.5, 0.8, 1.2, 1.7, 2.4})
+    for (const double sign : {-1.0, 1.0})
+      for (double height = 0.1; height < 0.95; height += 0.1)
+        for (const double width : {0.05, 0.09, 0.15})
+          forms.push_back(
+              {find_family("unnamed_slanted_ridge"),
+               flank,
+               {height * face_mm, sign * rise * face_mm, 0.0, width * face_mm, 0.0, 0.0}});
+  return forms;
+}
+
 std::vector<Effect> corners(const FlankGeometry& geometry, FlankChoice flank) {
   const double profile_mm = std::abs(geometry.tip_form_roll_mm() - geometry.root_form_roll_mm()),
                face_mm = geometry.face_width_mm();

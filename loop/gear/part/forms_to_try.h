@@ -69,6 +69,9 @@ inline constexpr int kMostOfComb = 8;  ///< one tooth in so many, at most
 [[nodiscard]] std::vector<Effect> bows_of_the_axis();
 [[nodiscard]] std::vector<Effect> kinks_of_the_axis(const FlankGeometry& geometry);
 
+/// Ridges and grooves in lines aslant over the flanks, to start from.
+[[nodiscard]] std::vector<Effect> lines_aslant(const FlankGeometry& geometry, FlankChoice flank);
+
 /// Corners to start from.
 [[nodiscard]] std::vector<Effect> corners(const FlankGeometry& geometry, FlankChoice flank);
 
