@@ -95,6 +95,7 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_broken_wave(),
         unnamed_saw(),
         unnamed_comb(),
+        unnamed_sectors(),
         unnamed_pattern(),
         unnamed_stairs(),
         unnamed_drift_of_some(),

@@ -125,6 +125,7 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_drift_aside();
 [[nodiscard]] EffectFamily unnamed_broken_wave();
 [[nodiscard]] EffectFamily unnamed_saw();
+[[nodiscard]] EffectFamily unnamed_sectors();
 [[nodiscard]] EffectFamily unnamed_comb();
 [[nodiscard]] EffectFamily unnamed_pattern();
 [[nodiscard]] EffectFamily unnamed_stairs();

@@ -59,6 +59,9 @@ auto place_or_height(std::size_t k) {
   };
 }
 
+/// Teeth between two sectors.
+constexpr double kFewestBetween = 2.0;
+
 }  // namespace
 
 EffectFamily unnamed_sector() {
@@ -75,6 +78,34 @@ EffectFamily unnamed_sector() {
   f.words = [](const ToldForm& told) {
     return "a sector of " +
            printed("%.0f teeth from tooth %.0f on ", told.shape[1], told.shape[0]) +
+           CourseOfTeeth::at(told, 2).does();
+  };
+  return f;
+}
+
+EffectFamily unnamed_sectors() {
+  EffectFamily f = described("unnamed_sectors", {"first_tooth", "teeth", "profile_degree",
+                                                 "face_degree", "opposite_flanks", "number"});
+  set_columns(f, {[](const FlankGeometry& g, int tooth, const EffectShape& shape, double* factor) {
+                    constexpr double kRounding = 1e-9;
+                    const double since = std::fmod(teeth_since(g, tooth, shape[0]) + kRounding,
+                                                   g.teeth() / shape[5]);
+                    factor[0] = since < shape[1] ? 1.0 : 0.0;
+                  },
+                  form_at(2)});
+  f.term_keys = {{"first_tooth"}, {"teeth"}, {"profile_degree"},
+                 {"face_degree"}, kFlanks,   {"number"}};
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes = sectors_beside(g, shape, 2);
+    std::erase_if(shapes, [&](const EffectShape& beside) {
+      return beside[1] > g.teeth() / beside[5] - kFewestBetween;
+    });
+    return shapes;
+  };
+  f.words = [](const ToldForm& told) {
+    return printed(
+               "each of %.0f sectors of %.0f teeth, evenly spaced, the first from tooth %.0f on, ",
+               told.shape[5], told.shape[1], told.shape[0]) +
            CourseOfTeeth::at(told, 2).does();
   };
   return f;

@@ -191,7 +191,8 @@ std::vector<RemainderFinding> forms_around(const PartModel& model, const CourseO
   // (forms of which there are far more are no looks of the others)
   const auto is_of_many = [](const std::vector<Effect>& set) {
     return set.front().family == find_family("unnamed_cut_order") ||
-           set.front().family == find_family("unnamed_changing_wave");
+           set.front().family == find_family("unnamed_changing_wave") ||
+           set.front().family == find_family("unnamed_sectors");
   };
   for (const std::vector<Effect>& set : sets)
     if (!is_of_many(set)) tried += kMovedEach * set.size() * beside.size();
@@ -363,6 +364,13 @@ bool tell_as_repeating(PartModel& model) {
       if (put_form_for_multiples(model, around, number, 2,
                                  swellings[static_cast<std::size_t>(number)]))
         return true;
+    for (int number = 2; number <= kMostSectors; ++number) {
+      std::vector<Effect> sectors = sectors_around(z, flank, 0.0, number);
+      if (flank == FlankChoice::kBoth)
+        for (Effect& aside : sectors_around(z, flank, 1.0, number))
+          sectors.push_back(std::move(aside));
+      if (put_form_for_multiples(model, around, number, 2, sectors)) return true;
+    }
   }
   return false;
 }

@@ -2,6 +2,7 @@
 #include "trueflank/loop/gear/part/forms_to_try.h"
 
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "trueflank/base/units.h"
@@ -371,6 +372,23 @@ std::vector<Effect> dents_around(int z, FlankChoice flank) {
 
 }  // namespace
 
+std::vector<Effect> sectors_around(int z, FlankChoice flank, double opposite, int number) {
+  constexpr double kFewestTeeth = 2.0;
+  const double apart = static_cast<double>(z) / number;
+  std::vector<Effect> sectors;
+  std::set<int> counts;
+  for (const double share : {0.25, 0.4, 0.5, 0.6, 0.75})
+    if (const double count = std::rint(share * apart);
+        count >= kFewestTeeth && apart - count >= kFewestTeeth)
+      counts.insert(static_cast<int>(count));
+  for (const int count : counts)
+    for (int first = 1; first < apart + 1.0; ++first)
+      sectors.push_back({find_family("unnamed_sectors"),
+                         flank,
+                         {double(first), double(count), 0.0, 0.0, opposite, double(number)}});
+  return sectors;
+}
+
 std::vector<std::vector<Effect>> forms_from_tooth_to_tooth(int teeth,
                                                            const CourseOverFlanks& course) {
   const bool heights = course.profile == 0.0 && course.face == 0.0;
@@ -381,6 +399,9 @@ std::vector<std::vector<Effect>> forms_from_tooth_to_tooth(int teeth,
       add_beginning(teeth, course, flank, opposite, sets);
       add_of_some_teeth(teeth, course, flank, opposite, sets);
       if (heights) add_repeating(teeth, flank, opposite, sets);
+      if (heights)
+        for (int number = 2; number <= kMostSectors; ++number)
+          sets.push_back(sectors_around(teeth, flank, opposite, number));
       if (heights && flank == FlankChoice::kBoth) {
         sets.push_back(cut_orders(teeth, flank, opposite));
         sets.push_back(changing_waves(teeth, flank, opposite));

@@ -81,6 +81,10 @@ inline constexpr int kMostOfComb = 8;  ///< one tooth in so many, at most
 /// All of these where they are more than two, every two, and each by itself.
 [[nodiscard]] std::vector<std::vector<std::size_t>> all_pairs_and_each(
     const std::vector<std::size_t>& all);
+/// So many sectors, evenly spaced around the gear, of at least two teeth and as many between them.
+inline constexpr int kMostSectors = 6;
+[[nodiscard]] std::vector<Effect> sectors_around(int teeth, FlankChoice flank, double opposite,
+                                                 int number);
 /// An S over all of the profile (0) or the face (1).
 [[nodiscard]] Effect s_over(int face, FlankChoice flank);
 /// Forms along the profile (0) or the face (1), and an S.
