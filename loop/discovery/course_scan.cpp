@@ -383,6 +383,18 @@ class CourseScan {
     double tests = 0.0;
     const CourseFinding waves = own_waves(sets_, loud, tests);
     keep(waves, tests);
+    // The other sets may have them too.
+    constexpr double kSure = 1e-4, kAlike = 0.1;
+    if (waves.set < 0 || tests * waves.p_value > kSure) return;
+    for (std::size_t s = 0; s < sets_.size(); ++s) {
+      if (static_cast<int>(s) == waves.set) continue;
+      double own_tests = 0.0;
+      CourseFinding own = own_waves({sets_[s]}, {loud[s]}, own_tests);
+      own.set = static_cast<int>(s);
+      if (own_tests * own.p_value <= kSure &&
+          std::abs(own.width - waves.width) < kAlike * waves.width)
+        keep(own, own_tests);
+    }
   }
 
   /// How much louder than the usual course each course of a set is; a quiet one may be so by chance.

@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
+#include "trueflank/base/units.h"
 #include "trueflank/loop/discovery/loudness.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/discovery/own_relief.h"
@@ -127,10 +129,72 @@ void take_smooth_forms_off(std::vector<double>& level) {
   for (std::size_t k = 0; k < from; ++k) level[k] = std::min(level[k], error);
 }
 
+/// Of a wave of so many periods over a course: what it takes out of all, each in a phase of its
+/// own; it is taken off where that is asked for.
+double take_waves(std::vector<Eigen::VectorXd>& courses, double periods, bool off) {
+  double square = 0.0;
+  for (Eigen::VectorXd& course : courses) {
+    const Eigen::Index n = course.size();
+    const Eigen::ArrayXd angle = Eigen::ArrayXd::LinSpaced(n, 0.5, static_cast<double>(n) - 0.5) *
+                                 (kTwoPi * periods / static_cast<double>(n));
+    Eigen::MatrixXd wave(n, 2);
+    wave.col(0) = angle.cos();
+    wave.col(1) = angle.sin();
+    const Eigen::Vector2d right = wave.transpose() * course,
+                          size = (wave.transpose() * wave).ldlt().solve(right);
+    square += right.dot(size);
+    if (off) course -= wave * size;
+  }
+  return square;
+}
+
+/// Where a wave of one length stands far above all beside it in the spectrum, of whole and half
+/// periods from one half on: how many periods there are. Its foot would be taken for the error's
+/// long and short waves.
+std::optional<double> periods_of_tall_line(const std::vector<double>& level,
+                                           std::vector<Eigen::VectorXd>& courses) {
+  constexpr double kTall = 15.0, kShare = 0.3;
+  constexpr std::size_t kFewest = 12, kLongest = 4;
+  if (level.size() < kFewest) return {};
+  const auto most = std::max_element(level.begin() + kLongest, level.end());
+  if (*most < kTall * median(std::vector<double>(level.begin() + kLongest, level.end()))) return {};
+  const double near = 0.5 * static_cast<double>(most - level.begin() + 1);
+  double best = near, square = 0.0, all = 0.0;
+  for (double periods = near - 1.5; periods <= near + 1.5; periods += 0.05)
+    if (const double here = take_waves(courses, periods, false); here > square) {
+      square = here;
+      best = periods;
+    }
+  for (const Eigen::VectorXd& course : courses)
+    all += (course.array() - course.mean()).matrix().squaredNorm();
+  if (square < kShare * all) return {};
+  return best;
+}
+
 /// What every trace has for itself.
 struct OwnCourses {
   bool trends = false, smooth = false;
 };
+
+/// Squares at every length of waves, from n / 1 on: the median over the courses and the lengths
+/// beside.
+std::vector<double> levels_of(const std::vector<Eigen::VectorXd>& courses, int n) {
+  constexpr int kBeside = 2;
+  std::vector<Eigen::VectorXd> spectra;
+  for (const Eigen::VectorXd& course : courses) spectra.push_back(cosine_spectrum(course));
+  std::vector<double> level;
+  for (int k = 1; k < n; ++k) {
+    std::vector<double> squares;
+    for (const Eigen::VectorXd& s : spectra)
+      for (int off = -kBeside; off <= kBeside; ++off) {
+        const auto at =
+            static_cast<Eigen::Index>(std::lround((k + off) * static_cast<double>(s.size()) / n));
+        if (k + off >= 1 && at >= 1 && at < s.size()) squares.push_back(s[at]);
+      }
+    level.push_back(median(squares) / kMedianOfSquare);
+  }
+  return level;
+}
 
 /// Variance of traces over the same wavelengths; some may be measured worse than others. Where
 /// they have trends or smooth forms of their own, what errors have of these is taken from the
@@ -138,7 +202,6 @@ struct OwnCourses {
 Variance variance_of_traces(std::vector<Whole>& wholes, double lost, const OwnCourses& own) {
   // (what a trend taken off smooth forms leaves would show at every length)
   const bool own_trends = own.trends && !own.smooth;
-  constexpr int kBeside = 2;
   constexpr std::size_t kOfTrends = 2;
   Pieces pieces = pieces_of(wholes);
   if (own_trends)
@@ -151,21 +214,17 @@ Variance variance_of_traces(std::vector<Whole>& wholes, double lost, const OwnCo
     shortest = std::min(shortest, piece.size());
   }
   const std::vector<double> loud = loudness_of_few(scatters, pieces.values).factors;
-  std::vector<Eigen::VectorXd> spectra;
-  for (std::size_t i = 0; i < loud.size(); ++i)
-    spectra.push_back(cosine_spectrum(pieces.courses[i] / loud[i]));
+  for (std::size_t i = 0; i < loud.size(); ++i) pieces.courses[i] /= loud[i];
   // Wavelengths in shares of the shortest course; k = 0 is the trace's zero.
   const auto n = static_cast<int>(shortest);
-  std::vector<double> level;
-  for (int k = 1; k < n; ++k) {
-    std::vector<double> squares;
-    for (const Eigen::VectorXd& s : spectra)
-      for (int off = -kBeside; off <= kBeside; ++off) {
-        const auto at =
-            static_cast<Eigen::Index>(std::lround((k + off) * static_cast<double>(s.size()) / n));
-        if (k + off >= 1 && at >= 1 && at < s.size()) squares.push_back(s[at]);
-      }
-    level.push_back(median(squares) / kMedianOfSquare);
+  std::vector<double> level = levels_of(pieces.courses, n);
+  constexpr int kMostLines = 3;
+  for (int line = 0; line < kMostLines; ++line) {
+    const std::optional<double> periods = periods_of_tall_line(level, pieces.courses);
+    if (!periods) break;
+    take_waves(pieces.courses, *periods, true);
+    lost *= static_cast<double>(n) / (n - 2);
+    level = levels_of(pieces.courses, n);
   }
   if (own_trends && level.size() > 2 * kOfTrends)
     std::fill_n(

@@ -84,6 +84,21 @@ const RemainderFinding& most_telling(const std::vector<RemainderFinding>& remain
   return *told;
 }
 
+/// What is told of a remainder, in words. Waves that traces have each in its phase are told of
+/// every flank and direction that has them.
+std::string words_of_remainder(const std::vector<RemainderFinding>& remainder) {
+  constexpr double kSure = 1e-4;
+  constexpr int kMost = 3;
+  const RemainderFinding& told = most_telling(remainder);
+  std::string text = told.text;
+  int more = 0;
+  for (const RemainderFinding& finding : remainder)
+    if (told.own_phases && finding.own_phases && &finding != &told && finding.p_value < kSure &&
+        more++ < kMost)
+      text += "; and " + finding.text;
+  return text;
+}
+
 }  // namespace
 
 double structure_left_p_value(const PartModel& model) {
@@ -97,8 +112,8 @@ double structure_left_p_value(const PartModel& model) {
 std::string structure_left(const PartModel& model) {
   if (neighbours_share(model))
     return words_for(model.neighbours) +
-           (model.remainder.empty() ? "" : "; and " + most_telling(model.remainder).text);
-  if (!model.remainder.empty()) return most_telling(model.remainder).text;
+           (model.remainder.empty() ? "" : "; and " + words_of_remainder(model.remainder));
+  if (!model.remainder.empty()) return words_of_remainder(model.remainder);
   if (model.denied_spot)
     return words_for(model.geometry, *model.denied_spot) +
            ", which the values held out do not bear out";
