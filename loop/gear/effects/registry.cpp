@@ -88,6 +88,7 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_swellings_at_end(),
         unnamed_reversal(),
         unnamed_moved_sector(),
+        unnamed_moved_part(),
         unnamed_alternation(),
         unnamed_ramp(),
         unnamed_levelling(),

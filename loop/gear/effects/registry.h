@@ -119,6 +119,7 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_swellings_at_end();
 [[nodiscard]] EffectFamily unnamed_reversal();
 [[nodiscard]] EffectFamily unnamed_moved_sector();
+[[nodiscard]] EffectFamily unnamed_moved_part();
 [[nodiscard]] EffectFamily unnamed_alternation();
 [[nodiscard]] EffectFamily unnamed_ramp();
 [[nodiscard]] EffectFamily unnamed_levelling();

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "trueflank/base/units.h"
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/part/one_form.h"
@@ -439,6 +440,33 @@ bool tell_run_of_teeth(PartModel& model, std::size_t one) {
   return true;
 }
 
+/// True of what is on teeth near the ends of a run alone.
+bool is_at_the_ends(const FlankGeometry& geometry, const Effect& effect, double first,
+                    double count) {
+  constexpr double kNear = 1.6, kSeen = 0.15;  // teeth; of what it is at most
+  constexpr int kPlaces = 5;
+  if (effect.columns() != 1) return false;
+  const double z = geometry.teeth(), low = geometry.root_form_roll_mm(),
+               high = geometry.tip_form_roll_mm();
+  double near = 0.0, far = 0.0;
+  for (int tooth = 1; tooth <= geometry.teeth(); ++tooth) {
+    const double off = std::min(std::abs(std::remainder(tooth - (first - 0.5), z)),
+                                std::abs(std::remainder(tooth - (first + count - 0.5), z)));
+    double& most = off < kNear ? near : far;
+    for (const int side : {-1, 1})
+      for (int u = 0; u < kPlaces; ++u)
+        for (int v = 0; v < kPlaces; ++v) {
+          double value = 0.0;
+          effect.evaluate(geometry,
+                          geometry.on_flank(tooth, side, low + (u + 0.5) / kPlaces * (high - low),
+                                            (v + 0.5) / kPlaces * geometry.face_width_mm()),
+                          &value);
+          most = std::max(most, std::abs(value));
+        }
+  }
+  return near > 0.0 && far < kSeen * near;
+}
+
 }  // namespace
 
 bool tell_as_sector(PartModel& model) {
@@ -499,6 +527,34 @@ std::vector<Effect> with_sector(PartModel& model, std::vector<std::size_t>& thes
     }
   }
   return {};
+}
+
+bool tell_as_moved_part(PartModel& model) {
+  constexpr int kMoreValues = 2, kSteps = 4;  // of an end, a quarter of a pitch each
+  const EffectFamily *teeth = find_family("unnamed_moved_sector"),
+                     *part = find_family("unnamed_moved_part");
+  if (model.table->points_mm.empty()) return false;
+  const double pitch_deg = 360.0 / model.geometry.teeth();
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    const Effect& sector = model.effects[e];
+    if (sector.family != teeth) continue;
+    const double first = sector.shape[0], count = sector.shape[1];
+    std::vector<std::size_t> with_ends;
+    for (std::size_t other = first_told_here(model); other < model.effects.size(); ++other)
+      if (other == e || is_at_the_ends(model.geometry, model.effects[other], first, count))
+        with_ends.push_back(other);
+    const double from_deg = deg_from_rad(model.geometry.centre_rad(static_cast<int>(first))) -
+                            0.5 * pitch_deg,
+                 over_deg = count * pitch_deg, step_deg = pitch_deg / kSteps;
+    std::vector<Effect> forms;
+    for (int before = -kSteps; before <= kSteps; ++before)
+      for (int after = -kSteps; after <= kSteps; ++after)
+        forms.push_back({part,
+                         FlankChoice::kBoth,
+                         {from_deg - before * step_deg, over_deg + (before + after) * step_deg}});
+    if (put_one_form_for(model, with_ends, forms, {}, kMoreValues)) return true;
+  }
+  return false;
 }
 
 void tell_teeth_side_by_side(PartModel& model) {

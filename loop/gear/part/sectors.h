@@ -11,6 +11,9 @@ namespace trueflank::loop {
 [[nodiscard]] bool tell_as_sector(PartModel& model);
 /// The answer with a sector, the last, in place of these.
 [[nodiscard]] std::vector<Effect> with_sector(PartModel& model, std::vector<std::size_t>& these);
+/// Teeth that stand aside as one body, with what is at their ends, are all points of a scan towards
+/// some directions: the edge between two views runs through teeth.
+[[nodiscard]] bool tell_as_moved_part(PartModel& model);
 /// Teeth side by side that stand out to one side are one swelling, hollow or sector, and none of
 /// them a single tooth.
 void tell_teeth_side_by_side(PartModel& model);
