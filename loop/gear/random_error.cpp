@@ -59,23 +59,27 @@ double take_common_off(std::vector<Whole*>& wholes, int parts_u, int parts_v) {
   return values / (values - used);
 }
 
+/// What stands beside a line in a spectrum, the larger of both sides; the line itself where it is
+/// near an end: it stands above both sides, the rise to long waves above one.
+double beside_line(const std::vector<double>& level, int line) {
+  constexpr int kNear = 4, kFar = 10;
+  const auto n = static_cast<int>(level.size());
+  std::vector<double> before, after;
+  for (int off = kNear; off <= kFar; ++off) {
+    if (line - off >= 0) before.push_back(level[static_cast<std::size_t>(line - off)]);
+    if (line + off < n) after.push_back(level[static_cast<std::size_t>(line + off)]);
+  }
+  return before.size() > 2 && after.size() > 2 ? std::max(median(before), median(after))
+                                               : level[static_cast<std::size_t>(line)];
+}
+
 /// Sum of a spectrum in which a line counts as what stands beside it: waves of one length that
 /// every trace has in a phase of its own are no random error, whose spectrum is smooth.
 double sum_without_lines(const std::vector<double>& level) {
-  constexpr int kNear = 4, kFar = 10;
   constexpr double kLine = 3.0;
-  const auto n = static_cast<int>(level.size());
   double sum = 0.0;
-  for (int k = 0; k < n; ++k) {
-    std::vector<double> before, after;
-    for (int off = kNear; off <= kFar; ++off) {
-      if (k - off >= 0) before.push_back(level[static_cast<std::size_t>(k - off)]);
-      if (k + off < n) after.push_back(level[static_cast<std::size_t>(k + off)]);
-    }
-    const double own = level[static_cast<std::size_t>(k)];
-    // A line stands above both sides; the rise to long waves is above one.
-    const bool both = before.size() > 2 && after.size() > 2;
-    const double beside = both ? std::max(median(before), median(after)) : own;
+  for (int k = 0; k < static_cast<int>(level.size()); ++k) {
+    const double own = level[static_cast<std::size_t>(k)], beside = beside_line(level, k);
     sum += own > kLine * beside ? beside : own;
   }
   return sum;
@@ -153,12 +157,18 @@ double take_waves(std::vector<Eigen::VectorXd>& courses, double periods, bool of
 /// long and short waves.
 std::optional<double> periods_of_tall_line(const std::vector<double>& level,
                                            std::vector<Eigen::VectorXd>& courses) {
-  constexpr double kTall = 15.0, kShare = 0.3;
-  constexpr std::size_t kFewest = 12, kLongest = 4;
-  if (level.size() < kFewest) return {};
-  const auto most = std::max_element(level.begin() + kLongest, level.end());
-  if (*most < kTall * median(std::vector<double>(level.begin() + kLongest, level.end()))) return {};
-  const double near = 0.5 * static_cast<double>(most - level.begin() + 1);
+  constexpr double kTall = 12.0, kShare = 0.3;
+  if (level.empty()) return {};
+  int line = 0;
+  double tallest = kTall;
+  for (int k = 0; k < static_cast<int>(level.size()); ++k)
+    if (const double tall = level[static_cast<std::size_t>(k)] / beside_line(level, k);
+        tall > tallest) {
+      tallest = tall;
+      line = k;
+    }
+  if (line == 0) return {};
+  const double near = 0.5 * (line + 1);
   double best = near, square = 0.0, all = 0.0;
   for (double periods = near - 1.5; periods <= near + 1.5; periods += 0.05)
     if (const double here = take_waves(courses, periods, false); here > square) {

@@ -289,8 +289,9 @@ void tell_forms_of_teeth(PartModel& model) {
       const auto put_own = [&](const std::vector<Effect>& forms) {
         return put_one_form_for(model, these, on_teeth(forms, tooth, 1.0));
       };
-      // (lines aslant are several spots)
-      bool is_one = these.size() > 1 && put_own(lines_aslant(model.geometry, flank));
+      // (lines aslant are several spots, and a profile beside a lead does not tell them from one)
+      bool is_one = these.size() > 1 && !model.table->points_mm.empty() &&
+                    put_own(lines_aslant(model.geometry, flank));
       for (const double face : {0.0, 1.0})
         is_one = is_one || put_own(steps_along(model.geometry, face, flank)) ||
                  put_own(forms_along(model.geometry, face, flank, false));

@@ -4,6 +4,7 @@
 #include "trueflank/loop/gear/part/single_teeth.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -121,6 +122,26 @@ bool is_beside_form_of_teeth(const PartModel& model, int gap) {
   return false;
 }
 
+/// How far the walls of a gap stand out without some effects, the counter-clockwise side of the
+/// lower tooth first: the mean of what was measured on these flanks alone.
+std::array<double, 2> walls_without(const PartModel& model, int gap,
+                                    const std::vector<std::size_t>& these) {
+  const auto row_um = fit_of(model, without(model.effects, these))->residuals_um();
+  std::array<double, 2> sum{}, count{};
+  for (std::size_t i = 0; i < model.table->rows.size(); ++i) {
+    const Observation& row = model.table->rows[i];
+    const Place& place = model.table->place(row);
+    if (row.kind == ObservationKind::kRadial || row.kind == ObservationKind::kSize ||
+        place.surface != Surface::kFlank)
+      continue;
+    const std::size_t wall = place.side > 0 ? 0 : 1;
+    if (place.tooth != (wall == 0 ? gap : gap % model.geometry.teeth() + 1)) continue;
+    sum[wall] += (*row_um)[i];
+    count[wall] += 1.0;
+  }
+  return {count[0] > 0.0 ? sum[0] / count[0] : 0.0, count[1] > 0.0 ? sum[1] / count[1] : 0.0};
+}
+
 bool tell_gap(PartModel& model) {
   const int z = model.geometry.teeth();
   const FlankChoice counter_clockwise = flank_choice(model.geometry, 1);
@@ -137,9 +158,18 @@ bool tell_gap(PartModel& model) {
     const bool of_scans = !model.table->points_mm.empty();
     if (of_scans && (walls.size() < 2 || is_beside_form_of_teeth(model, gap))) continue;
     std::vector<Effect> forms;
+    // (of one wall that stands out: the other must do so, too; runout that denies the wall is none)
+    constexpr double kAlike = 0.35;
+    const auto [lower, upper] = walls_without(model, gap, walls);
+    const auto is_borne_out = [&](double sign) {
+      return walls.size() > 1 ||
+             sign * lower * upper > kAlike * std::max(lower * lower, upper * upper);
+    };
     for (const double opposite : {0.0, 1.0})
-      forms.push_back(
-          {find_family("unnamed_gap"), FlankChoice::kBoth, {static_cast<double>(gap), opposite}});
+      if (is_borne_out(opposite != 0.0 ? -1.0 : 1.0))
+        forms.push_back(
+            {find_family("unnamed_gap"), FlankChoice::kBoth, {static_cast<double>(gap), opposite}});
+    if (forms.empty()) continue;
     if (tell_in_place_of(model, walls, forms)) return true;
   }
   return false;
