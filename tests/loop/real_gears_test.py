@@ -19,6 +19,7 @@ import numpy
 PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
 SOURCE = pathlib.Path(os.environ["TRUEFLANK_SOURCE_DIR"])
 OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"])
+WHOLE = "TRUEFLANK_CAMPAIGN" in os.environ
 
 
 def data_folder():
@@ -88,6 +89,16 @@ class Gear:
         low, high = self.roll(n["profile_eval_start_d1_mm"]), self.roll(n["profile_eval_end_d2_mm"])
         return (self.rolls() >= low) & (self.rolls() <= high)
 
+    def asked(self, kind):
+        """What a loop gets of what is evaluated: in the gate every third point of gear C's helix traces, of 73; a loop on
+        all of them takes three times as long, and the slopes that it foretells are the same."""
+        used = self.evaluated(kind)
+        if kind == "helix" and self.name == "C" and not WHOLE:
+            thinned = numpy.zeros_like(used)
+            thinned[numpy.flatnonzero(used)[::3]] = True
+            return thinned
+        return used
+
     def normal_direction(self, tooth, side, roll, z):
         turn = math.tan(self.beta_b) / self.base * z
         theta = 2 * math.pi * (tooth - 1) / self.teeth
@@ -143,7 +154,7 @@ def closed(gear, kinds, leave_out, folder):
             lines += [f"index,{t},{flank},{middle:.4f},{gear.nominal['face_width_mm'] / 2},{v:.4f}"
                       for t, flank, v in gear.index()]
             continue
-        used = gear.evaluated(kind)
+        used = gear.asked(kind)
         along = gear.heights() if kind == "helix" else gear.rolls()
         for (flank, tooth), values in getattr(gear, kind).items():
             if tooth in leave_out:
@@ -313,7 +324,6 @@ def slope(x, values):
     return numpy.polyfit(x, values, 1)[0] * (x[-1] - x[0])
 
 
-WHOLE = "TRUEFLANK_CAMPAIGN" in os.environ
 FOLDS = 5
 
 
@@ -444,7 +454,7 @@ class RealGears(unittest.TestCase):
     def test_the_before_and_after_of_all_three(self):
         for name in "ABC":
             for kind in ("helix", "profile", "index"):
-                if kind == "profile" and name in "BC" and not WHOLE:
+                if (kind == "profile" and name in "BC" or kind == "helix" and name == "B") and not WHOLE:
                     continue  # more time than all the others together
                 gear = Gear(name)
                 if kind == "helix" and name == "C" and not WHOLE:  # nor of this a loop of its own
