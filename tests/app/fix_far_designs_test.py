@@ -9,6 +9,7 @@ import unittest
 
 PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
 OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"])
+WHOLE = "TRUEFLANK_CAMPAIGN" in os.environ
 
 
 def design(kind, teeth, gearbox="", more="", ring=False):
@@ -59,7 +60,7 @@ class FarDesigns(unittest.TestCase):
         return run("fix", path, "-o", out), out
 
     def test_the_nearest_design_that_passes_is_found(self):
-        for name, text in FEASIBLE.items():
+        for name, text in list(FEASIBLE.items())[::1 if WHOLE else 2]:
             with self.subTest(name):
                 self.assertTrue(failing(text))
                 done, out = self.fixed(text)

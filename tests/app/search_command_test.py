@@ -13,6 +13,7 @@ import tomllib
 
 PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
 OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"]) / "search"
+WHOLE = "TRUEFLANK_CAMPAIGN" in os.environ
 NEEDS = """format = 1
 name = "small"
 [gearbox]
@@ -101,11 +102,12 @@ def every_kind():
     (threads / "search.journal").write_bytes(text[: len(text) // 3])
     run(needs, "-o", threads, "--resume", "--threads", 3, "-q")
     same(whole, threads, names)
-    for part in (1, 2, 3):
-        run(needs, "-o", OUTPUT / f"kinds{part}", "--shard", f"{part}/3", "-q")
-    merged = OUTPUT / "kinds-merged"
-    run(needs, "-o", merged, "--merge", *(OUTPUT / f"kinds{part}" for part in (1, 2, 3)), "-q")
-    same(whole, merged, names[:-1])
+    if WHOLE:  # as parts of one kind are merged, which the gate sees, too
+        for part in (1, 2, 3):
+            run(needs, "-o", OUTPUT / f"kinds{part}", "--shard", f"{part}/3", "-q")
+        merged = OUTPUT / "kinds-merged"
+        run(needs, "-o", merged, "--merge", *(OUTPUT / f"kinds{part}" for part in (1, 2, 3)), "-q")
+        same(whole, merged, names[:-1])
 
     report = json.loads((whole / "search.json").read_text())
     rows = list(csv.DictReader((whole / "search.csv").open()))

@@ -15,6 +15,7 @@ import unittest
 PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
 PAGE = pathlib.Path(os.environ["TRUEFLANK_SOURCE_DIR"]) / "docs/search-results.md"
 OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"])
+WHOLE = "TRUEFLANK_CAMPAIGN" in os.environ
 GEARS = ("sun", "planet1", "ring1", "planet2", "ring2")
 PAPERS_OWN = "12/39/90/32/81"
 MEASURED_FORWARD, MEASURED_BACKWARD = 0.890, 0.853
@@ -61,7 +62,9 @@ class SeedTable(unittest.TestCase):
                 printed = float(row["prototype"].removeprefix("1/"))
                 ratio = (printed - 0.05, printed + 0.05)
                 alike = row["planets"] == "alike"
-                for formula, column in ((False, ""), (True, ", formula")):
+                # the gate: every row once, by one way of loss or the other
+                ways = ((False, ""), (True, ", formula"))
+                for formula, column in ways if WHOLE else ways[index % 2:index % 2 + 1]:
                     best = alone(f"row{index}{column[2:]}", row["set"], ratio, formula=formula, planets_alike=alike)
                     self.assertAlmostEqual(best["forward"], share(row["forward" + column]), delta=PRINTED)
                     self.assertAlmostEqual(best["backward"], share(row["backward" + column]), delta=PRINTED)
@@ -106,6 +109,8 @@ class SeedTable(unittest.TestCase):
                 self.assertEqual(best["output"], row["output"])
                 self.assertAlmostEqual(best["ratio"], float(row["ratio"]), delta=0.0005)
                 self.assertEqual(found["to_optimise"], int(row["sets"]))
+            if not WHOLE:
+                break
 
 
 if __name__ == "__main__":

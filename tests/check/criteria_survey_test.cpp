@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "tests/check/random_pairs.h"
+#include "tests/support/survey_size.h"
 #include "trueflank/base/tolerance.h"
 #include "trueflank/check/mesh_clearance.h"
 #include "trueflank/check/ring_criteria.h"
@@ -97,7 +98,7 @@ void survey_mesh(const GearTrain& train, const TrainMesh& mesh, Survey& s) {
 TEST(Criteria, AreWorthWhatTheDocumentationSays) {
   Survey s;
   int designs = 0;
-  for (std::uint64_t seed = 500000; designs < 2000; ++seed) {
+  for (std::uint64_t seed = 500000; designs < survey_size(500, 2000); ++seed) {
     const auto train = lay_out(random_design(seed));
     if (!train) continue;
     ++designs;

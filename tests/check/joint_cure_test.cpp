@@ -5,6 +5,7 @@
 
 #include "tests/check/check_designs.h"
 #include "tests/check/cure_survey.h"
+#include "tests/support/survey_size.h"
 #include "trueflank/check/check_gearbox.h"
 
 namespace trueflank {
@@ -101,7 +102,7 @@ TEST(JointCure, LeavesADesignAloneThatPasses) {
 }
 
 TEST(JointCure, MakesNoRandomDesignWorseAndCuresMost) {
-  const test::CureSurvey survey = test::survey_cures(1, 12);
+  const test::CureSurvey survey = test::survey_cures(1, test::survey_size(4, 12));
   EXPECT_EQ(survey.worse, 0);
   EXPECT_EQ(survey.newly_failing, 0);
   EXPECT_EQ(survey.claims_broken, 0);

@@ -8,7 +8,7 @@ namespace trueflank::test {
 namespace {
 
 TEST(OverlapSimulation, AgreesOnHundredsOfRandomDesigns) {
-  const Comparison c = compare_with_simulation(100000, survey_size(150, 1000));
+  const Comparison c = compare_with_simulation(100000, survey_size(50, 1000));
   EXPECT_EQ(c.wrong, 0);
   EXPECT_EQ(c.exact_wrong, 0);
   // where two corners pass, the simulation's steps of 0.01 module cut the peak off

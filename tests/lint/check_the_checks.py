@@ -11,6 +11,7 @@ import check_layers
 import check_locale
 import check_names
 import check_nodiscard
+import check_surveys
 
 LICENCE = "// SPDX-License-Identifier: GPL-3.0-or-later\n"
 HEADER = LICENCE + "#pragma once\n"
@@ -166,6 +167,26 @@ class Locale(unittest.TestCase):
     def test_other_names_are_none(self):
         self.assertEqual(check_locale.check("a.a:u.o:     U snprintf\na.a:u.o:     U _ZN1a7tolowerEv\n"
                                             "a.a:u.o:     T tolower\na.a:u.o:     U strtod\n"), [])
+
+
+class Surveys(Tree):
+    SOURCE = (LICENCE + "const int kRuns = survey_size(4, 200);\nvoid ask(int seed) {\n  seed += kRuns;\n}\n"
+              "TEST(Places, AreFound) {\n  ask(1);\n}\nTEST(Places, AreFew) {\n  ask_once();\n}\n")
+
+    def complaints(self, campaign):
+        self.write("tests/loop/places_test.cpp", self.SOURCE, listed=False)
+        self.write("tests/loop/CMakeLists.txt", campaign + "\n", listed=False)
+        return check_surveys.check(self.root)
+
+    def test_a_survey_that_no_campaign_asks_is_found(self):
+        for campaign in ("", "trueflank_campaign(loop Others.*)", "trueflank_campaign(loop Places.AreFew)"):
+            self.assertEqual(self.complaints(campaign),
+                             ["tests/loop/places_test.cpp: Places.AreFound is shorter in the gate and in no campaign"])
+
+    def test_one_that_a_campaign_asks_passes(self):
+        for campaign in ("trueflank_campaign(loop Others.*:Places.*)",
+                         "set(surveys\n  Others\n  Places)\ntrueflank_campaign(loop ${surveys})"):
+            self.assertEqual(self.complaints(campaign), [])
 
 
 if __name__ == "__main__":

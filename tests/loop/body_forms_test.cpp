@@ -67,7 +67,8 @@ std::vector<const loop::Term*> terms_of(const loop::LoopResult& result) {
 }
 
 TEST(BodyForms, OutOfRoundAtOneEndIsOneForm) {
-  for (unsigned seed = 1; seed <= 6; ++seed) {
+  // (of every course one in the gate, of scans and traces)
+  for (const unsigned seed : survey_of(3, {1U, 2U, 5U, 3U, 4U, 6U})) {
     auto random = random_of(seed);
     const MadeGear gear = spur(static_cast<int>(between(random, 18.0, 40.0)));
     const int order = static_cast<int>(between(random, 2.0, 5.0));
@@ -88,7 +89,7 @@ TEST(BodyForms, OutOfRoundAtOneEndIsOneForm) {
 }
 
 TEST(BodyForms, ASinkBesideAGateIsOnePlace) {
-  for (unsigned seed = 1; seed <= 6; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(2U, 6U); ++seed) {
     auto random = random_of(seed);
     const MadeGear gear = spur(static_cast<int>(between(random, 18.0, 40.0)));
     const bool radial = seed % 4 < 2;
@@ -113,9 +114,9 @@ TEST(BodyForms, ASinkBesideAGateIsOnePlace) {
 
 TEST(BodyForms, TwoGatesOfUnequalDepthAreTwoPlaces) {
   // (waves out of round, sectors and steps were told in their place)
-  int right = 0;
-  constexpr int kAll = 8;
-  for (unsigned seed = 1; seed <= kAll; ++seed) {
+  unsigned right = 0;
+  const unsigned all = survey_size(2U, 8U);
+  for (unsigned seed = 1; seed <= all; ++seed) {
     auto random = random_of(seed);
     const MadeGear gear = spur(static_cast<int>(between(random, 34.0, 66.0)));
     const double um = between(random, 10.0, 18.0), share = between(random, 0.5, 0.8),
@@ -147,11 +148,11 @@ TEST(BodyForms, TwoGatesOfUnequalDepthAreTwoPlaces) {
       std::cout << seed << " " << um << " " << share * um << " at " << at_deg[0] << ", "
                 << at_deg[1] << list(result) << "\n";
   }
-  EXPECT_GE(right, kAll - 1);
+  EXPECT_GE(8 * right, 7 * all);
 }
 
 TEST(BodyForms, ABodyThatSagsOnOneSideIsOnePlace) {
-  for (unsigned seed = 1; seed <= 4; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(2U, 4U); ++seed) {
     auto random = random_of(seed);
     const MadeGear gear = seed % 2 == 0 ? ring(static_cast<int>(between(random, 50.0, 64.0)))
                                         : spur(static_cast<int>(between(random, 24.0, 50.0)));
@@ -172,7 +173,7 @@ TEST(BodyForms, ABodyThatSagsOnOneSideIsOnePlace) {
 }
 
 TEST(BodyForms, DentsOfJawsAreOneForm) {
-  for (unsigned seed = 1; seed <= 6; ++seed) {
+  for (const unsigned seed : survey_of(2, {1U, 3U, 2U, 4U, 5U, 6U})) {
     auto random = random_of(seed);
     const MadeGear gear = spur(static_cast<int>(between(random, 24.0, 40.0)));
     const int number = 2 + static_cast<int>(seed) % 3;
@@ -198,7 +199,7 @@ TEST(BodyForms, DentsOfJawsAreOneForm) {
 
 // They were ramps over the face, a third too large, and of a ring the words had the wrong sign.
 TEST(BodyForms, DentsOverAPartOfTheFaceEndAtAnEdge) {
-  for (unsigned seed = 1; seed <= 2; ++seed) {
+  for (const unsigned seed : survey_of(1, {2U, 1U})) {  // (the gate: the ring)
     auto random = random_of(seed + 40);
     const bool of_a_ring = seed % 2 == 0;
     const int teeth = static_cast<int>(between(random, 36.0, 48.0));
@@ -274,7 +275,7 @@ TEST(BodyForms, WallsByTheDirectionOfAPointAreNoEccentricity) {
 
 TEST(BodyForms, ABeltThatIsWiderIsOneFormOfTheRadius) {
   const MadeGear gear = spur(26);
-  for (const unsigned seed : {2U, 4U}) {
+  for (const unsigned seed : survey_of(1, {2U, 4U})) {
     const auto made = grown([](const MadeGear& g, const FlankSpot& s, const Vec3& p) {
       return outwards(g, s, p, 90.0 * std::exp(-std::pow((s.v - 0.1) / 0.35, 2)));
     });

@@ -47,7 +47,7 @@ std::string told(const MadeGear& gear, const loop::MeasuredData& data) {
 
 TEST(CanonicalOrder, TheAnswerIsTheSameInWhateverOrderFilesAndRowsStand) {
   const MadeGear gear = helical(21, 21.0);
-  for (unsigned seed = 1; seed <= 3; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 3U); ++seed) {
     loop::MeasuredData data = sheet_of(gear, seed);
     const std::string first = told(gear, data);
     std::mt19937_64 random(seed);

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "tests/loop/sample_bench.h"
+#include "tests/support/survey_size.h"
 #include "trueflank/report/drive_html.h"
 
 namespace trueflank::test {
@@ -142,19 +143,20 @@ std::string six_dwells(double loss_nm, double together, unsigned seed, double st
 // the readings of each say that they are off the model.
 TEST(DriveLoop, AFewSetPointsFarOffTheModelAreNotCalledNoise) {
   for (const double together : {0.0, 0.6, 0.85})
-    for (unsigned seed = 1; seed <= 4; ++seed) {
+    for (unsigned seed = 1; seed <= survey_size(2U, 4U); ++seed) {
       const auto closed = close_bench_text(six_dwells(0.012, together, seed));
       ASSERT_TRUE(closed);
       EXPECT_NE(closed->result.verdict, Verdict::kNoEffect) << loop::loop_text(closed->result);
     }
-  int alarms = 0;
+  unsigned alarms = 0;
+  const unsigned quiet = survey_size(4U, 8U);
   for (const double together : {0.0, 0.6, 0.85, 0.95})
-    for (unsigned seed = 1; seed <= 8; ++seed) {
+    for (unsigned seed = 1; seed <= quiet; ++seed) {
       const auto closed = close_bench_text(six_dwells(0.0, together, 100 + seed));
       ASSERT_TRUE(closed);
       alarms += closed->result.verdict != Verdict::kNoEffect;
     }
-  EXPECT_LE(alarms, 2);
+  EXPECT_LE(8 * alarms, 2 * quiet);
   // All rows of a dwell may be rounded alike.
   for (unsigned seed = 1; seed <= 4; ++seed) {
     const auto closed = close_bench_text(six_dwells(0.0, 0.0, 200 + seed, 0.005));
@@ -444,7 +446,7 @@ TEST(DriveLoop, ARunInIsNotTakenForWarmth) {
 
 TEST(DriveLoop, AStepOverTheTemperatureEarlyInTheRunIsNoThinning) {
   int named = 0;
-  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+  for (std::uint64_t seed = 1; seed <= survey_size(5U, 16U); ++seed) {
     const auto closed = loop::close_drive_loop(
         bench_model(),
         warming_run(bench_model(), seed, 2 + static_cast<int>(seed % 2),

@@ -31,7 +31,7 @@ loop::LoopResult scanned_with(const MadeGear& gear, const Process& process, unsi
 }
 
 TEST(CrossedForm, OfTheTipAtBothEndsIsOneForm) {
-  for (const MadeGear& gear : {spur(31), helical(24, 20.0)})
+  for (const MadeGear& gear : survey_of(1, {helical(24, 20.0), spur(31)}))
     expect_one(scanned_with(gear, grown([](auto&, const FlankSpot& s, auto&) {
                               return -24.0 * above(up(s.u), 0.5) *
                                      std::exp(-(1.0 - std::abs(s.v)) / 0.24);
@@ -64,7 +64,7 @@ TEST(CrossedForm, OfOneFlankNamesTheFlank) {
 }
 
 TEST(CrossedForm, OfOneSideOfTheGearIsOneForm) {
-  for (const MadeGear& gear : {spur(30), helical(23, -15.0)})
+  for (const MadeGear& gear : survey_of(1, {helical(23, -15.0), spur(30)}))
     expect_one(scanned_with(gear, grown([](const MadeGear& g, const FlankSpot& s, auto&) {
                               return 15.0 * std::exp(-up(s.u) / 0.2) *
                                      std::max(0.0, std::cos(centre_rad(g, s) - 2.0));

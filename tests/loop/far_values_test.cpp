@@ -38,7 +38,7 @@ std::vector<std::size_t> trace_of(const loop::InspectionData& data, loop::Record
 
 TEST(FarValues, AreToldWithToothPlaceAndHeight) {
   const MadeGear gear = spur(23);
-  for (unsigned seed = 1; seed <= 4; ++seed)
+  for (unsigned seed = 1; seed <= survey_size(2U, 4U); ++seed)
     for (const int count : {1, 2}) {
       loop::InspectionData data = inspection_of(gear, {}, all_teeth(seed));
       const bool profile = seed % 2 == 0;
@@ -61,7 +61,7 @@ TEST(FarValues, AreToldWithToothPlaceAndHeight) {
 
 // The last values of steep reliefs, which were left out before the fit, were told as dirt.
 TEST(FarValues, AtTheEndOfAReliefThatIsToldAreNone) {
-  for (unsigned seed = 1; seed <= 4; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(2U, 4U); ++seed) {
     const MadeGear gear = spur(20 + static_cast<int>(seed));
     const auto relieved = grown([](auto&, const FlankSpot& s, auto&) {
       const double past = std::max(0.0, 0.5 * (s.u + 1.0) - 0.62) / 0.38;
@@ -83,7 +83,7 @@ TEST(FarValues, AtTheEndOfAReliefThatIsToldAreNone) {
 }
 
 TEST(FarValues, OfNoiseAreNone) {
-  for (unsigned seed = 1; seed <= 10; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(3U, 10U); ++seed) {
     const auto result = close(spur(23), inspection_of(spur(23), {}, all_teeth(seed)));
     EXPECT_EQ(notes_of(result).find("too few to tell"), std::string::npos) << notes_of(result);
   }

@@ -52,7 +52,7 @@ TEST(FormForAName, WhatTheNamesSayKeepsThem) {
 TEST(FormForAName, ATaperOfErrorsThatHangTogetherStaysOne) {
   const MadeGear gear = spur(18);
   const auto made = grown([](auto&, const FlankSpot& s, auto&) { return 9.0 * s.v; });
-  for (unsigned seed = 1; seed <= 24; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(8U, 24U); ++seed) {
     InspectionOptions options;
     options.noise_um = 0.8;
     options.correlation = 0.85;

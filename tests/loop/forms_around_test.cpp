@@ -66,7 +66,7 @@ loop::LoopResult index_of(const FormAround& form, double eccentric_um, unsigned 
 
 TEST(FormsAround, StandAsOneFormBesideAnEccentricityInAnIndex) {
   for (const FormAround& form : kForms)
-    for (const unsigned seed : {1U, 2U, 3U}) {
+    for (const unsigned seed : survey_of(1, {1U, 2U, 3U})) {
       const auto result = index_of(form, 3.0, seed);
       EXPECT_EQ(result.effects.size(), 2U) << form.words << ": " << list(result);
       EXPECT_TRUE(tells(result, form.words)) << form.words << ": " << list(result);
@@ -95,7 +95,7 @@ TEST(FormsAround, StandBesideAnEccentricityAndAWaveOfThePitch) {
                  inspection_of(spur(kTeeth), {form, off_centre(4.0, 100.0), indexed(2, 5.0, 43.0)},
                                options));
   };
-  for (const unsigned seed : {1U, 2U, 3U})
+  for (const unsigned seed : survey_of(1, {1U, 2U, 3U}))
     for (const auto& [form, words] :
          {std::pair(grown(sector), "a sector of 9 teeth from tooth 12 on stands aside"),
           std::pair(grown(drift), "from tooth 1 on, once around, the height drifts")}) {
@@ -170,7 +170,7 @@ TEST(FormsAround, APatternOfACuttersTeethIsOneFormWithItsValues) {
 
 TEST(FormsAround, PlacesOfTheirOwnAreNoPattern) {
   std::mt19937 random(7);
-  for (int draw = 0; draw < 8; ++draw) {
+  for (int draw = 0; draw < survey_size(3, 8); ++draw) {
     const std::vector<double> own = uneven_cutter(kTeeth, random);
     InspectionOptions options;
     options.profile = options.helix = false;
@@ -204,7 +204,7 @@ TEST(FormsAround, WhatAnIndexShowsStandsInPlaceOfNamesThatTracesWouldKeep) {
 }
 
 TEST(FormsAround, AWaveOfAnIndexKeepsItsName) {
-  for (const unsigned seed : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U}) {
+  for (const unsigned seed : survey_of(3, {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U})) {
     InspectionOptions options;
     options.profile = options.helix = false;
     options.noise_um = 0.6;
@@ -231,7 +231,7 @@ TEST(FormsAround, SinksOfAScanAreNoThinnerTeeth) {
 }
 
 TEST(FormsAround, EveryThirdToothOfAScanIsNoWaveBesideThickerTeeth) {
-  for (const int first : {1, 2}) {
+  for (const int first : survey_of(1, {1, 2})) {
     const auto third = [&](auto&, const FlankSpot& s, auto&) {
       return s.tooth % 3 == first ? 20.0 : 0.0;
     };

@@ -27,7 +27,7 @@ TEST(StepOfAllFlanks, StandsBesideAHelixError) {
   const auto made = [](auto&, const FlankSpot& s, auto&) {
     return (s.v > 0.1 ? 6.0 : 0.0) + 4.0 * s.side * s.v;
   };
-  for (unsigned seed = 1; seed <= 2; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 2U); ++seed) {
     const auto result = close(gear, scan_of(gear, {grown(made)}, scanned(8000, 1.0, seed)), true);
     EXPECT_NEAR(std::abs(size_of(result, "helix_error", "slope_um")), 8.0, 0.4) << list(result);
     EXPECT_TRUE(tells(result, "a step over the face")) << list(result);
@@ -40,7 +40,7 @@ TEST(StepOfOneFlank, StandsBesideAPressureAngle) {
   const auto made = [](auto&, const FlankSpot& s, auto&) {
     return (s.side > 0 && s.u > 0.15 ? 6.0 : 0.0) - 7.0 * s.u;
   };
-  for (unsigned seed = 1; seed <= 2; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 2U); ++seed) {
     const auto result = close(gear, scan_of(gear, {grown(made)}, scanned(9000, 1.0, seed)), true);
     EXPECT_NEAR(size_of(result, "pressure_angle_error", "slope_um"), -14.0, 0.7) << list(result);
     EXPECT_TRUE(tells(result, "a step over the profile")) << list(result);
@@ -54,7 +54,7 @@ TEST(EqualAndOneSidedSlopes, AreOneOppositeSlope) {
     const double beyond = std::max(0.0, s.v - 0.15) / 0.85;
     return 45.0 * beyond * beyond + 20.0 * s.side * s.v;
   };
-  for (unsigned seed = 1; seed <= 3; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 3U); ++seed) {
     const auto result = close(gear, scan_of(gear, {grown(made)}, scanned(9000, 5.0, seed)), true);
     EXPECT_NEAR(std::abs(size_of(result, "helix_error", "slope_um")), 40.0, 2.0) << list(result);
     EXPECT_EQ(find(result, "taper"), nullptr) << list(result);
@@ -87,7 +87,7 @@ TEST(DriftOfOneFlank, IsOneFormBesideACrowning) {
   const auto made = [&](auto&, const FlankSpot& s, auto&) {
     return (s.side > 0 ? 13.0 * (s.tooth - 1.0) / gear.teeth : 0.0) - 14.0 * s.v * s.v;
   };
-  for (unsigned seed = 1; seed <= 2; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 2U); ++seed) {
     const auto result = close(gear, scan_of(gear, {grown(made)}, scanned(12000, 2.0, seed)), true);
     EXPECT_TRUE(tells(result, "from tooth 1 on, once around, the height drifts evenly"))
         << list(result);
@@ -204,7 +204,7 @@ TEST(BellMouth, OnTracesIsOneRiseAndNoCrowning) {
   };
   std::vector<int> teeth;
   for (int tooth = 1; tooth <= 27; ++tooth) teeth.push_back(tooth);
-  for (unsigned seed = 1; seed <= 2; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 2U); ++seed) {
     const auto result =
         close(gear, inspection_of(gear, {grown(flared)}, traced(teeth, 1.4, seed)));
     EXPECT_TRUE(tells(result, "more and more over the face towards both ends")) << list(result);

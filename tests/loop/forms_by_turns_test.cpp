@@ -78,7 +78,7 @@ TEST(OneToothInSoMany, ThatLeansLeavesTheOthersNoName) {
 
 TEST(OneToothInSoMany, ThatHasAGrooveOrWavesIsOneForm) {
   Numbers draw(2);
-  for (int k = 0; k < 4; ++k) {
+  for (int k = 0; k < survey_size(2, 4); ++k) {
     const int every = draw.whole(2, 4), first = draw.whole(1, every);
     const MadeGear gear = spur(every * draw.whole(7, 11));
     const double um = draw.any(6.0, 14.0), at = draw.any(-0.3, 0.3), phase = draw.any(0.0, 6.0);
@@ -115,7 +115,7 @@ TEST(Saws, FromNothingLeaveNoNameForTheirMean) {
 
 TEST(GrowingWaves, OfTracesAreOneForm) {
   Numbers draw(4);
-  for (int k = 0; k < 6; ++k) {
+  for (int k = 0; k < survey_size(2, 6); ++k) {
     const int z = draw.whole(18, 50);
     const MadeGear gear = spur(z);
     const double um = draw.any(8.0, 16.0), waves = draw.any(2.6, 6.0), phase = draw.any(0.0, 6.0);
@@ -138,7 +138,7 @@ TEST(GrowingWaves, OfTracesAreOneForm) {
 
 TEST(CutOrders, ThatJumpOverTeethAreTold) {
   Numbers draw(5);
-  for (int k = 0; k < 5; ++k) {
+  for (int k = 0; k < survey_size(2, 5); ++k) {
     int z = draw.whole(19, 43), step = draw.whole(3, 7);
     while (std::gcd(z, step) != 1) ++z;
     const int first = draw.whole(1, z);
@@ -166,7 +166,7 @@ TEST(CutOrders, ThatJumpOverTeethAreTold) {
 
 TEST(ChangingWaves, OfAnIndexGrowOrRing) {
   Numbers draw(6);
-  for (int k = 0; k < 6; ++k) {
+  for (int k = 0; k < survey_size(2, 6); ++k) {
     const int z = draw.whole(30, 60), first = draw.whole(1, z);
     const double um = draw.any(6.0, 12.0), phase = draw.any(0.0, 6.0);
     const bool rings = k % 2 == 1;
@@ -190,7 +190,7 @@ TEST(ChangingWaves, OfAnIndexGrowOrRing) {
 
 TEST(SlantedRidges, OverTheFlanksAndAroundTheGearAreOneForm) {
   Numbers draw(7);
-  for (int k = 0; k < 6; ++k) {
+  for (int k = 0; k < survey_size(2, 6); ++k) {
     const int z = draw.whole(16, 40);
     const MadeGear gear = spur(z);
     const double face = gear.face_mm, um = draw.any(25.0, 45.0);

@@ -29,7 +29,7 @@ TEST(FacingDirection, OfTheFlanksIsOneForm) {
     const Vec3 n = normal_at(g, s);
     return 6.0 * std::cos(2.0 * (std::atan2(n[1], n[0]) - towards_rad(40.0)));
   };
-  for (const MadeGear& gear : {spur(26), helical(31, 18.0)})
+  for (const MadeGear& gear : survey_of(1, {helical(31, 18.0), spur(26)}))
     expect_one(scan_with(gear, grown(by_facing), 1.5, 3),
                "by the direction that they face, twice per turn, at 40 deg first");
 }
@@ -47,7 +47,7 @@ TEST(FacingDirection, OfOneSideIsOneForm) {
 
 TEST(SwellingsAtAnEnd, AreOneForm) {
   const MadeGear gear = spur(32);
-  for (const int number : {2, 4}) {
+  for (const int number : survey_of(1, {2, 4})) {
     const auto bulges = [&](const MadeGear& g, const FlankSpot& s, const Vec3& p) {
       const double off = std::remainder(direction_rad(p) - towards_rad(30.0), 2.0 * M_PI / number);
       return -12.0 * std::exp(-std::pow(off / towards_rad(15.0), 2)) *

@@ -26,7 +26,7 @@ TEST(FieldInThePlane, IsNoEccentricityAndNoPitchWave) {
     const double x = 2.0 * p[0] / (g.module_mm * g.teeth);
     return {5.0 * x * x, 0.0, 0.0};
   }};
-  for (unsigned seed = 1; seed <= 2; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 2U); ++seed) {
     const auto result = close(gear, scan_of(gear, {field}, scanned(9000, 1.0, seed)), true);
     EXPECT_EQ(names_in(result), 0) << list(result);
     EXPECT_TRUE(tells(result, "shifted by the square of where they stand")) << list(result);
@@ -38,7 +38,7 @@ TEST(GrowsOverProfileTimesFace, IsOneFormAndNoTwist) {
   const auto cured = [](auto&, const FlankSpot& s, auto&) {
     return 20.0 * std::pow(0.5 * (1.0 - s.u), 2) * 0.5 * (1.0 + s.v);
   };
-  for (unsigned seed = 1; seed <= 2; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 2U); ++seed) {
     const auto result = close(gear, scan_of(gear, {grown(cured)}, scanned(9000, 2.0, seed)), true);
     EXPECT_EQ(names_in(result), 0) << list(result);
     EXPECT_TRUE(tells(result,
@@ -66,7 +66,7 @@ TEST(WaveThatDoesNotClose, IsNoToothAndNoDrift) {
   InspectionOptions options;
   options.points = 60;
   options.noise_um = 1.0;
-  for (options.seed = 1; options.seed <= 2; ++options.seed) {
+  for (options.seed = 1; options.seed <= survey_size(1U, 2U); ++options.seed) {
     const auto result = close(gear, inspection_of(gear, {grown(run_out)}, options));
     EXPECT_EQ(names_in(result), 0) << list(result);
     EXPECT_TRUE(tells(result, "2.5 periods a turn")) << list(result);

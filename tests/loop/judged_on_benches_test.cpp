@@ -15,7 +15,7 @@
 namespace trueflank::test {
 namespace {
 
-const int kOfEach = survey_size(5, 80);
+const int kOfEach = survey_size(4, 80);
 
 double nothing(const DrawnRow&) { return 0.0; }
 

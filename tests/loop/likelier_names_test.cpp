@@ -81,7 +81,7 @@ TEST(LikelierNames, ABowBesideAWearIsNoGroove) {
   const auto worn = grown([](auto&, const FlankSpot& s, auto&) {
     return -12.0 * s.u * s.u - 10.0 * std::exp(-std::pow((s.u + 0.2) / 0.3, 2));
   });
-  for (const unsigned seed : {1U, 2U, 3U}) {
+  for (const unsigned seed : survey_of(1, {1U, 2U, 3U})) {
     InspectionOptions options = traced({1, 8, 14, 20}, 0.8, seed);
     options.points = 64;
     const auto result = close(gear, inspection_of(gear, {worn}, options));

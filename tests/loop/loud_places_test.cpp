@@ -110,9 +110,10 @@ TEST(LoudPlaces, OfAScanAreNoSpotsAndNoEffects) {
   const auto tip = [](const FlankSpot& s) { return s.u > 0.84 ? 3.5 : 1.0; };
   const auto ends = [](const FlankSpot& s) { return std::abs(s.v) > 0.8 ? 3.0 : 1.0; };
   const auto tooth = [](const FlankSpot& s) { return s.tooth == 3 ? 3.5 : 1.0; };
-  int alarms = 0;
+  unsigned alarms = 0;
+  const unsigned all = survey_size(2U, 4U);
   std::string told;
-  for (unsigned seed = 1; seed <= 4; ++seed)
+  for (unsigned seed = 1; seed <= all; ++seed)
     for (const auto& loud : {std::function<double(const FlankSpot&)>(tip), {ends}, {tooth}}) {
       const auto result = of_scan(gear, seed, seed % 2 == 0, loud);
       if (result.verdict != loop::Verdict::kNoEffect) {
@@ -123,14 +124,14 @@ TEST(LoudPlaces, OfAScanAreNoSpotsAndNoEffects) {
         return note.find("scatter") != std::string::npos;
       })) << seed;
     }
-  EXPECT_LE(alarms, 1) << told;
+  EXPECT_LE(4 * alarms, 1 * all) << told;
 }
 
 TEST(LoudPlaces, LouderFlanksOfASparseScanHaveNoFormOfTheirOwn) {
   const MadeGear gear = spur(67);
   const auto teeth = [](const FlankSpot& s) { return s.tooth % 13 == 3 ? 2.5 : 1.0; };
   std::string told;
-  for (unsigned seed = 1; seed <= 4; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(2U, 4U); ++seed) {
     const auto result = of_scan(gear, seed, true, teeth);
     if (tells(result, "a form of its own")) told += list(result) + "\n";
   }
@@ -151,7 +152,7 @@ TEST(LoudPlaces, OfAScanThatAreFarLouderAreARoughSurface) {
 TEST(LoudPlaces, AStepWithinAPatchIsNoScatter) {
   const MadeGear gear = spur(29);
   const auto step = [](auto&, const FlankSpot& s, auto&) { return s.v > 0.12 ? 12.0 : 0.0; };
-  for (unsigned seed = 1; seed <= 2; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 2U); ++seed) {
     const auto result =
         close(gear, scan_of(gear, {grown(step)}, scanned(9000, 0.6, seed)), seed > 1);
     EXPECT_EQ(result.structure_left.find("rougher"), std::string::npos) << list(result);
@@ -184,7 +185,7 @@ TEST(LoudPlaces, AToothThatIsMeasuredWorseDoesNotAgreeWithItself) {
   options.index = false;
   int alarms = 0;
   std::string told;
-  for (unsigned seed = 1; seed <= 6; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(2U, 6U); ++seed) {
     std::mt19937_64 random(seed);
     std::normal_distribution<double> normal;
     const auto error = [&](auto&, const FlankSpot& s, auto&) {

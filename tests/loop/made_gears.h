@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "tests/loop/measured_process.h"
+#include "tests/support/survey_size.h"
 #include "trueflank/loop/gear/close_loop.h"
 
 // The library's gear for a made one, and the loop closed on what was measured of it.

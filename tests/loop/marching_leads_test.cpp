@@ -74,7 +74,7 @@ void expect_told(const loop::LoopResult& result, const March& march, const std::
 
 TEST(MarchingLeads, WavesOfWholeOrdersAreToldWithLengthAndOrder) {
   std::mt19937_64 random(41);
-  for (unsigned draw = 0; draw < 5; ++draw) {
+  for (unsigned draw = 0; draw < survey_size(2U, 5U); ++draw) {
     const March march = drawn(random, true);
     expect_told(closed(march, draw % 2 == 0, draw), march, "draw " + std::to_string(draw) + ": ");
   }
@@ -83,7 +83,7 @@ TEST(MarchingLeads, WavesOfWholeOrdersAreToldWithLengthAndOrder) {
 // A vibration that keeps no step with the turn; half a period a turn more or less, too.
 TEST(MarchingLeads, WavesOfNoWholeNumberOfPeriodsAreOneForm) {
   std::mt19937_64 random(42);
-  for (unsigned draw = 0; draw < 6; ++draw) {
+  for (unsigned draw = 0; draw < survey_size(3U, 6U); ++draw) {
     March march = drawn(random, false);
     // Half way, and near a whole number.
     if (draw % 3 != 2)
@@ -98,7 +98,7 @@ TEST(MarchingLeads, WavesOfNoWholeNumberOfPeriodsAreOneForm) {
 // Where no whole order beside the first one is left to be seen.
 TEST(MarchingLeads, OneThatKeepsStepNearlyIsNoWholeOrder) {
   for (const March& march :
-       {March{17, 5.5, -2.87, 0.4, 9.0, 1}, March{27, 2.6, -6.08, 1.1, 3.5, 0}}) {
+       survey_of(1, {March{17, 5.5, -2.87, 0.4, 9.0, 1}, March{27, 2.6, -6.08, 1.1, 3.5, 0}})) {
     const auto result = closed(march, true, 3);
     expect_told(result, march, "");
     EXPECT_TRUE(tells(result, "no whole number")) << list(result);

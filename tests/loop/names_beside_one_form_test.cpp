@@ -44,7 +44,7 @@ TEST(OppositeForms, ThatOneKinkSaysWithTheirSlopeLeaveItNone) {
   const auto bent = [](auto&, const FlankSpot& s, auto&) {
     return s.side * 12.0 * std::pow(std::max(s.v + 0.4, 0.0), 2);
   };
-  for (unsigned seed = 1; seed <= 3; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 3U); ++seed) {
     const InspectionOptions options = traced({1, 7, 13, 19}, 1.2, seed);
     const auto kink = close(gear, inspection_of(gear, {grown(kinked)}, options));
     EXPECT_FALSE(has_name(kink)) << list(kink);
@@ -58,7 +58,7 @@ TEST(EqualForms, LeaveAHelixErrorItsName) {
   const auto bent = [](auto&, const FlankSpot& s, auto&) {
     return 18.0 * (s.v * s.v * s.v - 0.6 * s.v) - 4.0 * s.v * s.v + 5.0 * s.side * s.v;
   };
-  for (unsigned seed = 1; seed <= 3; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 3U); ++seed) {
     const auto result = close(
         gear, inspection_of(gear, {grown(bent)}, traced({1, 5, 9, 13, 17, 21, 25, 28}, 1.0, seed)));
     ASSERT_NE(find(result, "helix_error"), nullptr) << list(result);
@@ -80,7 +80,7 @@ TEST(FormsOfOneFlank, LeaveWhatTheOtherFlankShowsItsName) {
   const MadeGear gear = spur(20);
   const auto worn = [](auto&, const FlankSpot& s, auto&) { return worn_um(s) - 5.0 * s.v * s.v; };
   const auto bent = [](auto&, const FlankSpot& s, auto&) { return s_shaped_um(s) + relief_um(s); };
-  for (unsigned seed = 1; seed <= 2; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 2U); ++seed) {
     const InspectionOptions options = traced({1, 6, 11, 16}, 0.8, seed);
     const auto lines = close(gear, inspection_of(gear, {grown(worn)}, options));
     const auto cloud = close(gear, scan_of(gear, {grown(worn)}, scanned(8000, 1.2, seed)), true);
@@ -101,7 +101,7 @@ TEST(FormsOfOneFlank, LeaveNoNameThatTheOtherFlankDoesNotShow) {
   const MadeGear gear = spur(26);
   const auto worn = [](auto&, const FlankSpot& s, auto&) { return worn_um(s); };
   const auto bent = [](auto&, const FlankSpot& s, auto&) { return s_shaped_um(s); };
-  for (unsigned seed = 1; seed <= 2; ++seed)
+  for (unsigned seed = 1; seed <= survey_size(1U, 2U); ++seed)
     for (const Process& process : {grown(worn), grown(bent)}) {
       const auto result =
           close(gear, inspection_of(gear, {process}, traced({1, 8, 14, 20}, 0.8, seed)));
@@ -157,7 +157,7 @@ TEST(FormsOfSomeTeeth, AGrooveIsOneFormBesideACrowning) {
     const bool is_in = s.tooth >= 29 || s.tooth <= 4;
     return (is_in ? -6.0 * std::exp(-std::pow((s.u + 0.2) / 0.25, 2)) : 0.0) - 5.0 * s.u * s.u;
   };
-  for (unsigned seed = 1; seed <= 2; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 2U); ++seed) {
     InspectionOptions options = traced({}, 0.8, seed);
     options.points = 60;
     const auto result = close(gear, inspection_of(gear, {grown(worn)}, options));

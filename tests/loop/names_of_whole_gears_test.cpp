@@ -50,7 +50,7 @@ TEST(NamesOfWholeGears, AScaleBesideAHollowFromEndToEnd) {
 }
 
 TEST(NamesOfWholeGears, ReliefsBesideTeethThatStandAside) {
-  for (const double deg : {46.0, 252.0}) {
+  for (const double deg : survey_of(1, {46.0, 252.0})) {
     const MadeGear gear = deg < 90.0 ? helical(22, 9.0) : spur(22);
     Process both = grown([](auto&, const FlankSpot& s, auto&) {
       const double off = std::max(0.0, s.u + 0.1) / 1.1;

@@ -29,8 +29,9 @@ TEST(NothingHidden, ErrorsThatHangTogetherAlongThinFlanksAreNoHeightsOfTheFlanks
 
 TEST(NothingHidden, LongTailsOfAnIndexBesideTracesAreNoStructure) {
   const MadeGear gear = spur(19);
-  int alarms = 0;
-  for (unsigned seed = 1; seed <= 12; ++seed) {
+  unsigned alarms = 0;
+  const unsigned all = survey_size(4U, 12U);
+  for (unsigned seed = 1; seed <= all; ++seed) {
     InspectionOptions options{.points = 40, .noise_um = 0.8};
     options.seed = seed;
     loop::InspectionData data = inspection_of(gear, {}, options);
@@ -42,7 +43,7 @@ TEST(NothingHidden, LongTailsOfAnIndexBesideTracesAreNoStructure) {
     const auto result = close(gear, data);
     alarms += result.verdict == loop::Verdict::kPartlyExplained && result.effects.empty();
   }
-  EXPECT_LE(alarms, 1);
+  EXPECT_LE(12 * alarms, 1 * all);
 }
 
 /// Patches of a scan whose errors on the left are so many times as large.

@@ -24,7 +24,7 @@ TEST(ToothAskew, IsOneLeanOfItsTwoFlanksInScansAndTraces) {
   const auto askew = [](auto&, const FlankSpot& s, auto&) {
     return is_on(s, 7) ? 6.0 * s.side * s.v : 0.0;
   };
-  for (unsigned seed = 1; seed <= 2; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 2U); ++seed) {
     const auto scanned_one =
         close(gear, scan_of(gear, {grown(askew)}, scanned(8000, 1.0, seed)), true);
     EXPECT_EQ(scanned_one.effects.size(), 1U) << list(scanned_one);
@@ -50,7 +50,7 @@ TEST(ToothAskew, OfManyIsNoSectorsThatUndoEachOther) {
   InspectionOptions options;
   options.points = 60;
   options.noise_um = 1.3;
-  for (options.seed = 9; options.seed <= 10; ++options.seed) {
+  for (options.seed = 9; options.seed <= survey_size(9U, 10U); ++options.seed) {
     const auto result = close(gear, inspection_of(gear, {grown(askew)}, options));
     EXPECT_NE(find(result, "crowning"), nullptr) << list(result);
     EXPECT_TRUE(tells(result, "tooth 41 alone leans over the face")) << list(result);

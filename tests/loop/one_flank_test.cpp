@@ -87,8 +87,8 @@ TEST(OneFlank, WallsThatAreAllOutWithTheTipsAreNotPerhapsOnesOfOneSide) {
 // Not as a level of both and a groove of one over its whole profile.
 TEST(OneFlank, ALevelOfOneSideInTracesOfACommonZeroIsOneForm) {
   int one_form = 0;
-  constexpr int kDraws = 6;
-  for (unsigned seed = 1; seed <= kDraws; ++seed) {
+  const int kDraws = survey_size(3, 6);
+  for (unsigned seed = 1; seed <= static_cast<unsigned>(kDraws); ++seed) {
     std::mt19937_64 random(40 + seed);
     const double um =
         std::uniform_real_distribution<double>(4.0, 9.0)(random) * (seed % 3 == 0 ? -1.0 : 1.0);

@@ -27,7 +27,7 @@ TEST(OneForm, WhatIsThickerTowardsAnEndIsNoSlopeWithABow) {
   const auto swollen = [](auto&, const FlankSpot& s, auto&) {
     return 7.0 * std::pow(0.5 * (1.0 - s.u), 4);
   };
-  for (unsigned seed = 1; seed <= 3; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 3U); ++seed) {
     const auto tip = close(gear, inspection_of(gear, {grown(plated)}, four_teeth(seed)));
     EXPECT_FALSE(has_name(tip)) << list(tip);
     const auto root = close(gear, inspection_of(gear, {grown(swollen)}, four_teeth(seed)));
@@ -45,7 +45,7 @@ TEST(OneForm, ARiseTowardsTheUpperEndIsNoGrooveBesideAKink) {
   const auto swollen = [](const MadeGear& g, const FlankSpot& s, auto&) {
     return 40.0 * std::exp(-0.5 * (1.0 - s.v) * g.face_mm / (0.1 * g.face_mm));
   };
-  for (unsigned seed = 1; seed <= 2; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 2U); ++seed) {
     const auto result =
         close(gear, scan_of(gear, {grown(swollen)}, scanned(10000, 2.3, seed)), true);
     EXPECT_FALSE(has_name(result)) << list(result);
@@ -62,7 +62,7 @@ TEST(OneForm, AHollowInTheMiddleOfEveryFlankIsNoWear) {
     return -14.0 * std::exp(-s.u * s.u / 0.36 - s.v * s.v / 0.25);
   };
   std::string told;
-  for (unsigned seed = 1; seed <= 2; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 2U); ++seed) {
     const auto result = close(gear, scan_of(gear, {grown(sunk)}, scanned(9000, 4.0, seed)), true);
     EXPECT_FALSE(has_name(result)) << list(result);
     told += list(result) + "\n";
@@ -79,7 +79,7 @@ TEST(OneForm, ARootReliefOnThreeTeethIsNoWear) {
   };
   InspectionOptions options = four_teeth(1);
   options.teeth = {1, 11, 21};
-  for (options.seed = 1; options.seed <= 4; ++options.seed) {
+  for (options.seed = 1; options.seed <= survey_size(2U, 4U); ++options.seed) {
     const auto result = close(gear, inspection_of(gear, {grown(relieved)}, options));
     EXPECT_FALSE(has_name(result)) << list(result);
   }
@@ -95,7 +95,7 @@ TEST(OneForm, AKinkOfFourTeethIsNoWearThatAWaveMends) {
   options.points = 120;
   options.noise_um = 1.4;
   options.index = false;
-  for (options.seed = 11; options.seed <= 14; ++options.seed) {
+  for (options.seed = 11; options.seed <= survey_size(11U, 14U); ++options.seed) {
     const auto result = close(gear, inspection_of(gear, {grown(bent)}, options));
     EXPECT_FALSE(has_name(result)) << list(result);
   }
@@ -110,7 +110,7 @@ TEST(OneForm, AnSOverTheProfileIsNoWearBesideARelief) {
   options.teeth = {1, 5, 10, 14, 19, 23, 28, 32};
   options.points = 120;
   options.noise_um = 0.5;
-  for (options.seed = 1; options.seed <= 3; ++options.seed) {
+  for (options.seed = 1; options.seed <= survey_size(1U, 3U); ++options.seed) {
     const auto result = close(gear, inspection_of(gear, {grown(bent)}, options));
     EXPECT_EQ(find(result, "flank_wear"), nullptr) << list(result);
     EXPECT_EQ(find(result, "tip_relief"), nullptr) << list(result);
@@ -126,7 +126,7 @@ TEST(OneForm, ADentOfEveryFourthToothIsNoWearOfAll) {
   InspectionOptions options;
   options.points = 31;
   options.noise_um = 0.7;
-  for (options.seed = 1; options.seed <= 3; ++options.seed) {
+  for (options.seed = 1; options.seed <= survey_size(1U, 3U); ++options.seed) {
     const auto result = close(gear, inspection_of(gear, {grown(dented)}, options));
     EXPECT_EQ(find(result, "flank_wear"), nullptr) << list(result);
     EXPECT_NE(result.verdict, loop::Verdict::kNoEffect);
@@ -139,7 +139,7 @@ TEST(OneForm, AGrowthAboveAHeightIsNoScale) {
     const double r = std::hypot(p[0], p[1]), a = 40.0 / (1.0 + std::exp(-s.v / 0.12));
     return {a * p[0] / r, a * p[1] / r, 0.0};
   }};
-  for (unsigned seed = 1; seed <= 2; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 2U); ++seed) {
     const auto result = close(gear, scan_of(gear, {pressed}, scanned(9000, 5.0, seed)), true);
     EXPECT_EQ(find(result, "scale"), nullptr) << list(result);
     EXPECT_EQ(find(result, "contour_offset"), nullptr) << list(result);
@@ -154,7 +154,7 @@ TEST(OneForm, RibsThatPressOutwardsAreNoScale) {
     const double a = 36.0 * std::pow(std::max(0.0, std::cos(5.0 * std::atan2(p[1], p[0]))), 4);
     return {a * p[0] / r, a * p[1] / r, 0.0};
   }};
-  for (unsigned seed = 1; seed <= 2; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 2U); ++seed) {
     const auto result = close(gear, scan_of(gear, {ribs}, scanned(9000, 5.0, seed)), true);
     EXPECT_EQ(find(result, "scale"), nullptr) << list(result);
     EXPECT_EQ(find(result, "contour_offset"), nullptr) << list(result);
@@ -191,7 +191,7 @@ TEST(OneForm, TwoNamesThatAreTrueStay) {
   const auto worn = [](auto&, const FlankSpot& s, auto&) {
     return -9.0 * std::exp(-std::pow((s.u - 0.55) / 0.4, 2));
   };
-  for (unsigned seed = 1; seed <= 3; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 3U); ++seed) {
     const auto profile = close(gear, inspection_of(gear, {grown(both)}, four_teeth(seed)));
     EXPECT_NE(find(profile, "pressure_angle_error"), nullptr) << list(profile);
     EXPECT_NE(find(profile, "profile_crowning"), nullptr) << list(profile);

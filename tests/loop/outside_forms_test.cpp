@@ -15,7 +15,7 @@ namespace {
 
 TEST(SectorBesideEccentricity, IsOneSectorAndTheEccentricityKeepsItsSize) {
   const MadeGear gear = spur(41);
-  for (unsigned seed = 1; seed <= 3; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 3U); ++seed) {
     const int first = 5 + 9 * static_cast<int>(seed), count = 6 + 3 * static_cast<int>(seed);
     const auto thick = [&](auto&, const FlankSpot& s, auto&) {
       return (s.tooth - first + gear.teeth) % gear.teeth < count ? 9.0 : 0.0;
@@ -52,7 +52,7 @@ TEST(HalvesTurned, AreOneStepToOppositeSides) {
     return s.v > -0.2 ? 7.0 * s.side : 0.0;
   };
   const auto crowned = [](auto&, const FlankSpot& s, auto&) { return -12.0 * s.v * s.v; };
-  for (unsigned seed = 1; seed <= 3; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 3U); ++seed) {
     const auto traces = close(
         gear,
         inspection_of(gear, {grown(turned)}, traced({1, 5, 9, 13, 17, 21, 25, 28}, 1.2, seed)));
@@ -76,7 +76,7 @@ TEST(CombOfOneFlank, HasAMeanThatIsNoThickness) {
     return s.side > 0 && s.tooth % 2 == 0 ? 8.0 : 0.0;
   };
   const auto thick = [](auto&, const FlankSpot&, auto&) { return 9.0; };
-  for (unsigned seed = 1; seed <= 2; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 2U); ++seed) {
     const auto alone = close(gear, scan_of(gear, {grown(comb)}, scanned(5000, 1.5, seed)), true);
     EXPECT_TRUE(tells(alone, "every other tooth")) << list(alone);
     EXPECT_FALSE(has_name(alone)) << list(alone);
@@ -89,7 +89,7 @@ TEST(CombOfOneFlank, HasAMeanThatIsNoThickness) {
 
 TEST(WornCorner, IsOneFormOfItsFlankBesideATaper) {
   const MadeGear gear = helical(29, 14.0);
-  for (const double power : {1.0, 2.0}) {
+  for (const double power : survey_of(1, {1.0, 2.0})) {
     const auto corner = [&](auto&, const FlankSpot& s, auto&) {
       const double on = s.side > 0 ? std::max(0.0, s.u - s.v - 0.5) / 1.5 : 0.0;
       return -18.0 * std::pow(on, power) + 7.0 * s.v;
@@ -120,7 +120,7 @@ TEST(RoundedEnds, AreOneFormBesideACrowning) {
     const double beyond = std::max(0.0, (std::abs(s.v) - 0.85) / 0.15);
     return -14.0 * beyond * beyond - 9.0 * s.v * s.v;
   };
-  for (unsigned seed = 1; seed <= 2; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 2U); ++seed) {
     const auto result =
         close(gear, scan_of(gear, {grown(rounded)}, scanned(6000, 1.1, seed)), true);
     ASSERT_NE(find(result, "crowning"), nullptr) << list(result);
@@ -147,7 +147,7 @@ TEST(NamesThatMayBeNothing, AreNotTold) {
     const double beyond = std::max(0.0, (std::abs(s.v) - 0.8) / 0.2);
     return -17.0 * beyond * beyond;
   };
-  for (unsigned seed = 1; seed <= 12; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(4U, 12U); ++seed) {
     InspectionOptions options = traced({1, 11, 21, 31, 41, 51}, 2.3, seed);
     options.points = 63;
     options.correlation = 0.56;

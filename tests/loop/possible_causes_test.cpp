@@ -192,7 +192,7 @@ TEST(PossibleCauses, RunoutAloneIsEccentricityFirst) {
 
 TEST(PossibleCauses, NoEffectMovesAFlankByMoreThanHalfAModule) {
   // A groove over every flank at one height: no effect of the library has its form.
-  for (unsigned seed = 1; seed <= 3; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 3U); ++seed) {
     const MadeGear made = spur(24);
     ScanOptions options;
     options.seed = seed;

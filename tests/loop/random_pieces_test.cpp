@@ -247,7 +247,7 @@ int values_told(const std::vector<Effect>& effects) {
 }
 
 TEST(RandomPieces, AreToldAsWhatLeavesAsLittleOfThem) {
-  for (unsigned seed = 1; seed <= 16; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(4U, 16U); ++seed) {
     RandomModel gear(seed);
     for (const Telling& telling : tellings()) {
       const auto model = gear.model();
@@ -278,7 +278,7 @@ TEST(RandomPieces, OfOneFormAreToldAsItWhereverItStands) {
       {"unnamed_comb", [](PartModel& m) { static_cast<void>(tell_as_repeating(m)); }},
       {"unnamed_rise", loop::tell_as_one_form},
       {"unnamed_bow", loop::tell_as_one_form}};
-  for (unsigned seed = 1; seed <= 41; seed += 2) {
+  for (unsigned seed = 1; seed <= survey_size(13U, 41U); seed += 2) {
     RandomModel gear(seed);
     const Effect& form = gear.made().front().first;
     for (const auto& [family, tell] : ways) {

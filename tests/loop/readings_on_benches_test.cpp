@@ -15,7 +15,7 @@
 namespace trueflank::test {
 namespace {
 
-const int kOfEach = survey_size(6, 120);
+const int kOfEach = survey_size(4, 120);
 
 DrawnBench::Loss no_loss() {
   return [](const DrawnRow&) { return 0.0; };
@@ -276,7 +276,7 @@ TEST(ReadingsOnBenches, ALossByAPowerOfTheSpeedBeginsNowhere) {
 
 TEST(ReadingsOnBenches, NoiseThatGrowsWithTheLoadOrTheSpeedIsNothing) {
   Answers answers;
-  const int runs = survey_size(20, 240);
+  const int runs = survey_size(7, 240);
   for (int run = 1; run <= runs; ++run) {
     const auto seed = static_cast<std::uint64_t>(68000 + run);
     DrawnBench bench(seed, RowOrder::kShuffled);

@@ -62,7 +62,7 @@ void expect_slope_and_relief(const loop::LoopResult& result, double slope_um, do
 // Both take material off the tip: what rises towards it says nearly as much, with a value less.
 TEST(SettledNames, ASlopeAndAReliefInsteadOfOneRise) {
   const MadeGear gear = spur(34);
-  for (const unsigned seed : {2U, 3U, 4U, 5U, 6U}) {
+  for (const unsigned seed : survey_of(2, {2U, 3U, 4U, 5U, 6U})) {
     const auto traces = inspection_of(gear, {leaning_and_relieved(-1.65, 2.85, 0.62)},
                                       traced({1, 6, 12, 18, 23, 29}, 0.34, seed));
     expect_slope_and_relief(close(gear, traces), -1.65, 2.85, 0.45);
@@ -72,7 +72,7 @@ TEST(SettledNames, ASlopeAndAReliefInsteadOfOneRise) {
 // What swells from end to end imitates a slope towards the tip that a relief ends.
 TEST(SettledNames, ASlopeAndAReliefInsteadOfASwelling) {
   const MadeGear gear = spur(40);
-  for (const unsigned seed : {14U, 15U, 17U}) {
+  for (const unsigned seed : survey_of(1, {14U, 15U, 17U})) {
     const auto traces = inspection_of(gear, {leaning_and_relieved(11.2, 11.6, 0.6)},
                                       traced({1, 10, 20, 30}, 1.36, seed));
     expect_slope_and_relief(close(gear, traces), 11.2, 11.6, 1.5);
@@ -183,7 +183,8 @@ TEST(SettledNames, ASlopeOfAllFlanksBesideABentAxis) {
 
 // In a scan of flanks alone a size of the part is a thickness and a lean in one ratio.
 TEST(SettledNames, ACoatThatIsThinAtTheRootIsNoSizeOfThePart) {
-  for (const auto& [teeth, um, noise_um] : {std::tuple{35, 14.5, 2.2}, {42, 24.0, 4.0}}) {
+  for (const auto& [teeth, um, noise_um] :
+       survey_of(1, {std::tuple{35, 14.5, 2.2}, {42, 24.0, 4.0}})) {
     const MadeGear gear = spur(teeth);
     const double levels_off = teeth == 35 ? 0.3 : 0.23;
     const auto coat = grown([levels_off, um = um](auto&, const FlankSpot& s, auto&) {

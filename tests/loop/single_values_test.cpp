@@ -74,7 +74,7 @@ loop::InspectionData runout_of(const MadeGear& gear, double um, double noise_um,
 // Of twelve values any signs fit some wave: flips of signs alone do not find what is plain to see.
 TEST(SingleValues, AFewOfThemShowAnEccentricity) {
   for (const int teeth : {11, 12, 17})
-    for (unsigned seed = 1; seed <= 4; ++seed) {
+    for (unsigned seed = 1; seed <= survey_size(2U, 4U); ++seed) {
       const MadeGear gear = spur(teeth);
       const auto result = close(gear, runout_of(gear, 8.0, 0.5, seed));
       EXPECT_NE(find(result, "eccentricity"), nullptr) << teeth << ", " << seed << ": " << list(result);
@@ -85,7 +85,7 @@ TEST(SingleValues, AFewOfThemShowAnEccentricity) {
 // A scan in any pose hides where the bore is; its many points must not hide that the index shows it.
 TEST(SingleValues, WhatAnIndexShowsIsNotLostBesideAScanInAnyPose) {
   const MadeGear gear = spur(12);
-  for (unsigned seed = 1; seed <= 4; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(2U, 4U); ++seed) {
     ScanOptions scanned;
     scanned.points = 6000;
     scanned.noise_um = 3.0;
@@ -143,12 +143,14 @@ TEST(SingleValues, PlacesThatBothFlanksOfEachToothShareAreNoNoise) {
 }
 
 TEST(SingleValues, ErrorsWithLongTailsAreSeldomATooth) {
-  int alarms = 0;
-  for (unsigned seed = 1; seed <= 40; ++seed)
+  unsigned alarms = 0;
+  const unsigned all = survey_size(20U, 40U);
+  // (of the first twenty three alarm: no fair sample)
+  for (unsigned seed = survey_size(21U, 1U); seed <= 40; ++seed)
     alarms += close(spur(30), wild_index(spur(30), seed, 0.0)).verdict != loop::Verdict::kNoEffect
                   ? 1
                   : 0;
-  EXPECT_LE(alarms, 4);
+  EXPECT_LE(40 * alarms, 4 * all);
 }
 
 TEST(SingleValues, AToothFarBeyondLongTailsIsOneEffect) {
@@ -160,8 +162,9 @@ TEST(SingleValues, AToothFarBeyondLongTailsIsOneEffect) {
 // Wild values are those of one flank; two of one tooth that agree are the tooth.
 TEST(SingleValues, AToothThatBothFlanksShowIsNamedBesideTraces) {
   const MadeGear gear = spur(52);
-  int named = 0, others = 0;
-  for (unsigned seed = 1; seed <= 8; ++seed) {
+  unsigned named = 0, others = 0;
+  const unsigned all = survey_size(4U, 8U);
+  for (unsigned seed = 1; seed <= all; ++seed) {
     InspectionOptions options;
     options.points = 30;
     options.noise_um = 1.6;
@@ -172,8 +175,8 @@ TEST(SingleValues, AToothThatBothFlanksShowIsNamedBesideTraces) {
     for (const auto& effect : close(gear, data).effects)
       (effect.id == "single_tooth" ? named : others) += 1;
   }
-  EXPECT_GE(named, 6);
-  EXPECT_LE(others, 1);
+  EXPECT_GE(8 * named, 6 * all);
+  EXPECT_LE(8 * others, 1 * all);
 }
 
 // One flank of a tooth is found where its value is the larger one; what the tails of that flank
@@ -246,8 +249,9 @@ loop::InspectionData index_with(const MadeGear& gear, unsigned seed, double ever
 // A value of normal errors' size is told from a wild one by the other teeth's tails, on both
 // flanks.
 TEST(SingleValues, OneFlankOfOneToothStandsOutOfAnIndex) {
-  int found = 0, others = 0;
-  for (unsigned seed = 1; seed <= 12; ++seed) {
+  unsigned found = 0, others = 0;
+  const unsigned all = survey_size(4U, 12U);
+  for (unsigned seed = 1; seed <= all; ++seed) {
     loop::InspectionData data = index_with(spur(30), seed);
     for (loop::InspectionRow& row : data.rows)
       if (row.tooth == 12 && row.flank == Flank::kLeft) row.deviation_um += 6.0;
@@ -255,8 +259,8 @@ TEST(SingleValues, OneFlankOfOneToothStandsOutOfAnIndex) {
     found += tells(result, "the left flank of tooth 12 stands out") ? 1 : 0;
     others += result.effects.size() > 1 ? 1 : 0;
   }
-  EXPECT_GE(found, 9);
-  EXPECT_LE(others, 1);
+  EXPECT_GE(12 * found, 9 * all);
+  EXPECT_LE(12 * others, 1 * all);
 }
 
 // What one value says a wild reading says as well.
@@ -357,7 +361,8 @@ TEST(SingleValues, ARunoutAloneIsNoPitchErrorAndIsNotAskedForAgain) {
 TEST(SingleValues, AToothOfAScanIsToldWhereItStandsFarBeyondWhatNoiseMakes) {
   const MadeGear gear = spur(36);
   constexpr double kNoise_um = 8.0;
-  constexpr int kPoints = 3600, kDraws = 10;
+  constexpr int kPoints = 3600;
+  const unsigned draws = survey_size(5U, 10U);
   const double error_um = kNoise_um / std::sqrt(kPoints / 36.0);
   const auto told = [&](double errors, unsigned seed) {
     const auto tooth = grown(
@@ -366,14 +371,14 @@ TEST(SingleValues, AToothOfAScanIsToldWhereItStandsFarBeyondWhatNoiseMakes) {
         close(gear, scan_of(gear, {tooth}, scanned(kPoints, kNoise_um, seed)), true);
     return find(result, "single_tooth") != nullptr || tells(result, "tooth 9 ");
   };
-  int few_errors = 0, many_errors = 0;
-  for (unsigned seed = 1; seed <= kDraws; ++seed) {
+  unsigned few_errors = 0, many_errors = 0;
+  for (unsigned seed = 1; seed <= draws; ++seed) {
     few_errors += told(4.6, seed) ? 1 : 0;
     many_errors += told(9.0, seed) ? 1 : 0;
   }
-  EXPECT_LE(few_errors, 2);
+  EXPECT_LE(10 * few_errors, 2 * draws);
   // (one is taken back by the values held out)
-  EXPECT_GE(many_errors, kDraws - 1);
+  EXPECT_GE(10 * many_errors, 9 * draws);
 }
 
 TEST(SingleValues, TwoWallsOfAGapInAnIndexAreToldOfTheGap) {
@@ -394,8 +399,9 @@ TEST(SingleValues, TwoWallsOfAGapInAnIndexAreToldOfTheGap) {
 TEST(SingleValues, AToothsIntervalIsThatOfItsTwoValues) {
   constexpr double kHeight = 9.0;
   const double promised = 2.0 / std::sqrt(2.0);  // two errors of the mean of both flanks
-  int held = 0;
-  for (unsigned seed = 1; seed <= 20; ++seed) {
+  unsigned held = 0;
+  const unsigned all = survey_size(7U, 20U);
+  for (unsigned seed = 1; seed <= all; ++seed) {
     loop::InspectionData data = index_with(spur(30), seed);
     for (loop::InspectionRow& row : data.rows)
       if (row.tooth == 12) row.deviation_um += kHeight;
@@ -406,17 +412,18 @@ TEST(SingleValues, AToothsIntervalIsThatOfItsTwoValues) {
     EXPECT_NEAR(0.5 * (amount.high - amount.low), promised, 0.35 * promised) << seed;
     held += amount.low <= kHeight && kHeight <= amount.high ? 1 : 0;
   }
-  EXPECT_GE(held, 17);
+  EXPECT_GE(20 * held, 17 * all);
 }
 
 TEST(SingleValues, NoToothStandsOutOfNoiseOrOfTeethThatAreAllLouder) {
-  int of_white = 0, of_louder = 0;
-  for (unsigned seed = 1; seed <= 40; ++seed) {
+  unsigned of_white = 0, of_louder = 0;
+  const unsigned all = survey_size(12U, 40U);
+  for (unsigned seed = 1; seed <= all; ++seed) {
     of_white += close(spur(30), index_with(spur(30), seed)).effects.empty() ? 0 : 1;
     of_louder += tells(close(spur(30), index_with(spur(30), seed, 3.0)), "that tooth") ? 1 : 0;
   }
-  EXPECT_LE(of_white, 1);
-  EXPECT_LE(of_louder, 5);
+  EXPECT_LE(40 * of_white, 1 * all);
+  EXPECT_LE(40 * of_louder, 5 * all);
 }
 
 // Neighbours of few teeth differ by the wave itself: taken for noise it would weigh the index down.
@@ -427,7 +434,7 @@ TEST(SingleValues, AWaveOfAnIndexOfFewTeethIsNoNoiseBesideTraces) {
   options.points = 40;
   options.noise_um = 0.45;
   for (const int order : {3, 4, 5})
-    for (unsigned seed = 1; seed <= 3; ++seed) {
+    for (unsigned seed = 1; seed <= survey_size(1U, 3U); ++seed) {
       const auto lean = [](auto&, const FlankSpot& s, auto&) { return 2.0 * s.side * s.v; };
       const auto places = [order](const MadeGear& g, const FlankSpot& s, auto&) {
         return 4.0 * s.side * std::cos(2.0 * M_PI * order * (s.tooth - 1) / g.teeth - 0.5);

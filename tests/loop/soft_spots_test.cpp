@@ -28,7 +28,7 @@ std::string edges_of(const loop::Term& term) {
 TEST(SoftSpots, ANickOnOneTraceHasItsHeight) {
   const MadeGear gear = spur(23);
   for (const bool soft : {true, false})
-    for (const unsigned seed : {1U, 2U, 3U}) {
+    for (const unsigned seed : survey_of(1, {1U, 2U, 3U})) {
       const auto made = grown([soft](const MadeGear& g, const FlankSpot& s, auto&) {
         const double off = std::pow((0.5 * g.face_mm * s.v - 1.1) / 0.7, soft ? 2 : 4);
         return s.tooth == 5 && s.side > 0 ? 11.0 * std::exp(-off) : 0.0;
@@ -49,7 +49,7 @@ TEST(SoftSpots, ANickOnOneTraceHasItsHeight) {
 // Small pits on five teeth, as of a flank that wears out.
 TEST(SoftSpots, PitsOfAScanHaveTheirDepth) {
   const MadeGear gear = spur(25);
-  for (const unsigned seed : {1U, 2U, 3U}) {
+  for (const unsigned seed : survey_of(1, {1U, 2U, 3U})) {
     const auto made = grown([](const MadeGear& g, const FlankSpot& s, auto&) {
       if (s.side > 0 || s.tooth % 5 != 2) return 0.0;
       const double face_mm = 0.5 * g.face_mm * (s.v - 0.13 * (s.tooth / 5 - 2));

@@ -9,7 +9,7 @@
 namespace trueflank::test {
 namespace {
 
-const int kRuns = survey_size(80, 200);
+const int kRuns = survey_size(30, 200);
 
 void expect_few_alarms(DataKind kind, double correlation) {
   const auto count = count_false_alarms(kind, correlation, kRuns);

@@ -41,6 +41,7 @@ void expect_step(const loop::LoopResult& result, const std::string& words, std::
 TEST(SoftStep, OfScansIsOneFormWithTheLengthOfItsEdge) {
   for (const MadeGear& gear : {spur(29), helical(24, 18.0)})
     for (const double edge : {0.14, 0.26}) {  // of half the face
+      if (!is_surveyed((gear.helix_rad == 0.0) == (edge < 0.2))) continue;
       const auto result = close(
           gear, scan_of(gear, {stepped(20.0, 0.24, edge, true)}, scanned(8000, 2.5, 21)), true);
       expect_step(result, "opposite on the two flanks: above it the teeth stand counter-clockwise",
@@ -97,7 +98,7 @@ TEST(SoftStep, TowardsAnEndStandsBesideALevelAndALead) {
   const MadeGear gear = spur(31);
   const Process lead = grown([](auto&, const FlankSpot&s, auto&) { return -4.1 * s.side * s.v; }),
                 level = grown([](auto&, auto&, auto&) { return 5.6; });
-  for (const unsigned seed : {1U, 2U}) {
+  for (const unsigned seed : survey_of(1, {1U, 2U})) {
     const auto result = close(
         gear,
         scan_of(gear, {lead, level, stepped(-5.6, -0.57, 0.15, false)}, scanned(5000, 1.1, seed)),
@@ -203,7 +204,7 @@ TEST(Facets, AreOneFormAndNoThinnerTeeth) {
   struct Draw {
     double facets, sagitta_um;
   };
-  for (const Draw& draw : {Draw{5.0, 16.0}, Draw{7.0, 9.0}, Draw{3.0, 25.0}}) {
+  for (const Draw& draw : survey_of(1, {Draw{5.0, 16.0}, Draw{7.0, 9.0}, Draw{3.0, 25.0}})) {
     const auto polygon = grown([&](auto&, const FlankSpot& s, auto&) {
       const double at = 0.5 * (s.u + 1.0) * draw.facets, within = at - std::floor(at);
       return -draw.sagitta_um * 4.0 * within * (1.0 - within);

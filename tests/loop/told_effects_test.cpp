@@ -85,8 +85,9 @@ TEST(ToldEffects, SizesThatAgreeWithinTheirErrorsLeaveNothingByTheirProbabilityT
 
 // Of waves on some teeth only those that were traced are known.
 TEST(ToldEffects, OfTeethThatWereNotTracedNothingIsSaid) {
-  int said = 0;
-  for (unsigned seed = 1; seed <= 4; ++seed) {
+  unsigned said = 0;
+  const unsigned all = survey_size(2U, 4U);
+  for (unsigned seed = 1; seed <= all; ++seed) {
     std::mt19937_64 random(seed);
     const int first = 2 * std::uniform_int_distribution<int>(5, 7)(random);
     const double per_face = std::uniform_real_distribution<double>(4.0, 6.0)(random);
@@ -114,7 +115,7 @@ TEST(ToldEffects, OfTeethThatWereNotTracedNothingIsSaid) {
       }
     EXPECT_FALSE(result.effects.empty()) << list(result);
   }
-  EXPECT_GE(said, 2);
+  EXPECT_GE(4 * said, 2 * all);
 }
 
 TEST(ToldEffects, EveryNamedEffectHasASentenceOfItsOwn) {
@@ -157,6 +158,7 @@ TEST(ToldEffects, SharesAddUpToWhatTheWholeFitExplains) {
       {scaled(0.2), out_of_round(3, 15, 50), twisted(9)},
       {indexed(3, 10, 40), off_centre(12, -80), relief, twisted(-8)}};
   for (const auto& set : sets) {
+    if (!is_surveyed(&set != &sets.back())) continue;
     const auto result = close(spur(24), scan_of(spur(24), set, {}), true);
     ASSERT_GE(result.effects.size(), 2U) << list(result);
     EXPECT_NEAR(sum_of_shares(result), explained(result), 1e-9) << list(result);

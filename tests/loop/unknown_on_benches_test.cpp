@@ -15,7 +15,7 @@
 namespace trueflank::test {
 namespace {
 
-const int kBenches = survey_size(10, 160);
+const int kBenches = survey_size(4, 160);
 
 /// Which branch of a hysteresis a row stands on: it goes over at once where the load turns, what
 /// stands there stays on the one it came by (`as_it_came`) or counts as risen.
@@ -308,7 +308,7 @@ TEST(UnknownOnBenches, SlipsOfASensorAreLeftOutAsBefore) {
 
 TEST(UnknownOnBenches, NoiseAloneHasNoName) {
   Answers answers;
-  for (int run = 1; run <= survey_size(32, 320); ++run) {
+  for (int run = 1; run <= survey_size(12, 320); ++run) {
     const auto seed = static_cast<std::uint64_t>(53000 + run);
     DrawnBench bench(seed, run % 2 == 0 ? RowOrder::kStandsAtTurns : RowOrder::kShuffled);
     if (run % 4 < 2) bench.warm_up();

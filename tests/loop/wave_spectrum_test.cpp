@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <random>
 
+#include "tests/support/survey_size.h"
 #include "trueflank/base/units.h"
 
 namespace trueflank::loop {
@@ -76,7 +77,7 @@ TEST(WaveSpectrum, WhatIsKeptFromOneQuestionToTheNextChangesNoAnswer) {
     others.points.resize(350);
     for (const int turn : {1, 2}) {
       (void)turn;
-      for (int seed = 1; seed <= 6; ++seed) {
+      for (int seed = 1; seed <= test::survey_size(2, 6); ++seed) {
         const double order = 1.3 + 1.7 * seed;
         const bool opposite = seed % 2 == 0;
         for (const BenchTable* of : {&table, static_cast<const BenchTable*>(&others)}) {

@@ -18,7 +18,7 @@ TEST(BellMouth, AtBothEndsIsNoCrowning) {
     const double v = 0.5 * (s.v + 1.0);
     return -15.0 * (std::exp(-v / 0.1) + std::exp((v - 1.0) / 0.1));
   };
-  for (unsigned seed = 1; seed <= 3; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 3U); ++seed) {
     const auto result = close(
         gear, inspection_of(gear, {grown(bell)}, traced({1, 5, 9, 13, 17, 21, 24, 28}, 0.8, seed)));
     EXPECT_FALSE(has_name(result)) << list(result);
@@ -33,7 +33,7 @@ TEST(BellMouth, BesideATaperLeavesItItsName) {
     const double v = 0.5 * (s.v + 1.0);
     return -15.0 * (std::exp(-v / 0.1) + std::exp((v - 1.0) / 0.1)) + 6.0 * s.v;
   };
-  for (unsigned seed = 1; seed <= 3; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 3U); ++seed) {
     const auto result = close(
         gear, inspection_of(gear, {grown(bell)}, traced({1, 5, 9, 13, 17, 21, 24, 28}, 0.8, seed)));
     ASSERT_NE(find(result, "taper"), nullptr) << list(result);
@@ -74,6 +74,7 @@ TEST(BentAxis, IsOneFormAndNoEccentricityBesideATilt) {
       {[](double v) { return 10.0 * (v - 1.0) * (v - 1.0); }, "from the upper end on"}};
   for (const MadeGear& gear : {spur(24), helical(27, 12.0)})
     for (const Bend& bend : bends) {
+      if (!is_surveyed((gear.helix_rad == 0.0) == ((&bend - bends) % 2 == 0))) continue;
       const auto result =
           close(gear, scan_of(gear, {moved(bend.of, 70.0)}, scanned(8000, 3.0, 2)), true);
       EXPECT_FALSE(has_name(result)) << list(result);
@@ -108,7 +109,7 @@ TEST(BentAxis, EccentricityTiltAndShiftStayWhatTheyAre) {
 TEST(WaveOverTheProfile, OnFourTeethIsNoGhostOrder) {
   const MadeGear gear = spur(21);
   for (const double phase : {0.0, 1.5, 3.0, 4.5})
-    for (unsigned seed = 1; seed <= 2; ++seed) {
+    for (unsigned seed = 1; seed <= survey_size(1U, 2U); ++seed) {
       const auto wave = [=](auto&, const FlankSpot& s, auto&) {
         return 5.0 * std::cos(1.5 * M_PI * (s.u + 1.0) + phase);
       };
@@ -157,7 +158,7 @@ TEST(AnS, BesideASlopeIsNoWearOfFourTeeth) {
   // Of 40 draws these were a wear beside a ghost order, or a wear that left what a small relief had
   // said beside it.
   const MadeGear gear = spur(15);
-  for (const unsigned seed : {1U, 2U, 12U, 14U, 15U, 20U, 31U}) {
+  for (const unsigned seed : survey_of(3, {1U, 2U, 12U, 14U, 15U, 20U, 31U})) {
     const double a = 1.0 + 0.05 * seed;
     const auto bent = [=](auto&, const FlankSpot& s, auto&) {
       return 1.7 * a * std::sin(M_PI * s.u) + 1.25 * a * s.u;
@@ -172,7 +173,7 @@ TEST(AnS, BesideASlopeIsNoWearOfFourTeeth) {
 
 TEST(BowOncePerTurn, OfEightTeethIsFoundBesideACrowning) {
   const MadeGear gear = spur(24);
-  for (unsigned seed = 1; seed <= 4; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 4U); ++seed) {
     const auto quenched = [=](const MadeGear& g, const FlankSpot& s, auto&) {
       return s.v * s.v * (16.0 * std::cos(2.0 * M_PI * (s.tooth - 1) / g.teeth - seed) - 13.0);
     };
@@ -188,8 +189,9 @@ TEST(BowOncePerTurn, OfEightTeethIsFoundBesideACrowning) {
 
 TEST(BowOncePerTurn, IsNotToldOfTeethThatDifferByChance) {
   const MadeGear gear = spur(24);
-  int waves = 0;
-  for (unsigned seed = 1; seed <= 12; ++seed) {
+  unsigned waves = 0;
+  const unsigned all = survey_size(4U, 12U);
+  for (unsigned seed = 1; seed <= all; ++seed) {
     std::mt19937_64 random(seed);
     std::normal_distribution<double> normal;
     std::vector<double> own;
@@ -202,7 +204,7 @@ TEST(BowOncePerTurn, IsNotToldOfTeethThatDifferByChance) {
         inspection_of(gear, {grown(bowed)}, traced({1, 4, 7, 10, 13, 16, 19, 22}, 1.6, seed)));
     waves += list(result).find("per turn, crowned") != std::string::npos;
   }
-  EXPECT_LE(waves, 1);
+  EXPECT_LE(12 * waves, all);
 }
 
 TEST(HollowOfEveryFlank, InLittleNoiseIsNoSumOfWavesAcrossTheFlanks) {
@@ -210,7 +212,7 @@ TEST(HollowOfEveryFlank, InLittleNoiseIsNoSumOfWavesAcrossTheFlanks) {
   const auto sunk = [](auto&, const FlankSpot& s, auto&) {
     return -3.5 * std::exp(-s.u * s.u / 0.25 - s.v * s.v / 0.16);
   };
-  for (unsigned seed = 1; seed <= 2; ++seed) {
+  for (unsigned seed = 1; seed <= survey_size(1U, 2U); ++seed) {
     const auto result = close(gear, scan_of(gear, {grown(sunk)}, scanned(8000, 0.44, seed)), true);
     EXPECT_FALSE(has_name(result)) << list(result);
     ASSERT_EQ(result.effects.size(), 1U) << list(result);
@@ -222,7 +224,7 @@ TEST(HollowOfEveryFlank, InLittleNoiseIsNoSumOfWavesAcrossTheFlanks) {
 
 TEST(TeethAside, TwoThatHideEachOtherAreFoundAndNoWaveIs) {
   const MadeGear gear = spur(21);
-  for (const int other : {6, 7, 13}) {
+  for (const int other : survey_of(1, {6, 7, 13})) {
     const auto moved_teeth = [=](auto&, const FlankSpot& s, auto&) {
       return 40.0 * s.side * ((s.tooth == 5 ? 1.0 : 0.0) - (s.tooth == other ? 1.0 : 0.0));
     };
@@ -278,8 +280,8 @@ TEST(TeethAside, WhatTheToothBesideLeavesHasNoName) {
 TEST(NamesBesideForms, ATaperBesideAnEndReliefKeepsItsName) {
   const MadeGear gear = spur(14);
   for (const double end : {-1.0, 1.0})
-    for (const double amount : {-9.0, 9.0})
-      for (unsigned seed = 1; seed <= 2; ++seed) {
+    for (const double amount : survey_of(1, {-9.0, 9.0}))
+      for (unsigned seed = 1; seed <= survey_size(1U, 2U); ++seed) {
         const auto relieved = [=](auto&, const FlankSpot& s, auto&) {
           return -4.5 * s.v + amount * std::max(0.0, end * s.v - 0.6) / 0.4;
         };
@@ -301,7 +303,7 @@ TEST(NamesBesideForms, AReliefBesideASlopeKeepsItsName) {
     return 2.6 * s.side * s.u - 6.0 * std::pow(std::max(0.0, s.u - 0.4) / 0.6, 2);
   };
   InspectionOptions options = traced({1, 22, 43}, 0.42, 1);
-  for (options.seed = 1; options.seed <= 3; ++options.seed) {
+  for (options.seed = 1; options.seed <= survey_size(1U, 3U); ++options.seed) {
     const auto result = close(gear, inspection_of(gear, {grown(relieved)}, options));
     const auto* relief = find(result, "tip_relief");
     ASSERT_NE(relief, nullptr) << list(result);

@@ -8,6 +8,7 @@
 
 #include "tests/programs/opencascade_solid.h"
 #include "tests/support/sample_gears.h"
+#include "tests/support/survey_size.h"
 #include "trueflank/geometry/involute.h"
 
 namespace trueflank {
@@ -90,18 +91,18 @@ SurfaceErrors surface_errors(const TopoDS_Shape& shape, const Toothing& toothing
 
 TEST(StepHelical, EveryShapeOfToothIsOneExactSolidWithAHelix) {
   int made = 0;
-  bool herringbone = false;
   for (auto [name, gear] : test::sample_gears()) {
     if (gear.teeth > 40) continue;  // nothing new, and slow
+    const bool herringbone = made % 2 == 1;
     gear.helix_angle_rad = herringbone ? -0.35 : 0.22;
     gear.tip_radius_mm = nominal_tip_radius_mm(gear);
     const auto profile = ToothProfile::make(gear);
     if (!profile) continue;  // there is no such gear
     ++made;
+    if (!test::is_surveyed(made % 4 < 2)) continue;  // (the gate: two in four, straight and broken)
     const double width_mm = 4.0 * gear.normal_module_mm;
     const PartShape part = test::helical_part(name, *profile, width_mm, herringbone);
     expect_exact_solid(part, read_back(part));
-    herringbone = !herringbone;
   }
   EXPECT_GE(made, 10);
 }

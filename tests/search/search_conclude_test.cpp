@@ -4,6 +4,7 @@
 #include <random>
 
 #include "tests/search/small_search.h"
+#include "tests/support/survey_size.h"
 #include "trueflank/search/search.h"
 #include "trueflank/search/search_corner.h"
 
@@ -28,7 +29,8 @@ TEST(Search, WhatIsPassedOverChangesNothingOfWhatIsListed) {
 TEST(Search, WithTheLossesOfADriveTheSameAreListedAsWithoutABound) {
   std::mt19937 random(20261123);
   std::uniform_real_distribution<double> share(0.0, 1.0);
-  for (const SearchObjective objective : {SearchObjective::kForward, SearchObjective::kBackward}) {
+  for (const SearchObjective objective :
+       test::survey_of(1, {SearchObjective::kForward, SearchObjective::kBackward})) {
     SearchRequirements r = requirements();
     r.objectives = {objective};
     r.losses = LossesDesign{};

@@ -98,9 +98,9 @@ TEST(SearchFigures, AMoveEndsWhereItsAccelerationsSay) {
 }
 
 TEST(SearchFigures, EveryFigureCanBeTheObjectiveAndIsNoWorseThanThatOfTheEfficiency) {
+  SearchRequirements r = needs("simple");
+  const Found plain = first_of(r);
   for (const ObjectiveEntry& entry : objective_entries()) {
-    SearchRequirements r = needs("simple");
-    const Found plain = first_of(r);
     r.objectives = {entry.objective};
     const SetResult result = optimise_set(r, plain.set);
     ASSERT_FALSE(result.candidates.empty()) << entry.name;

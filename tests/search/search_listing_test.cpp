@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <random>
 
+#include "tests/support/survey_size.h"
 #include "trueflank/search/search.h"
 
 namespace trueflank {
@@ -51,7 +52,7 @@ TEST(SearchListing, WithSeveralObjectivesOrWeightsTheSameAreListedAsWithoutABoun
   r.ratio_max = 100;
   r.sun = {12, 12};
   r.planet1 = {39, 39};
-  r.planet2 = {30, 36};
+  r.planet2 = {test::survey_size(34, 30), 36};
   r.ring1 = {87, 93};
   r.ring2 = {78, 90};
   const SetEnumeration some = enumerate_sets(r);

@@ -21,13 +21,14 @@ std::uint64_t asked(const char* variable, std::uint64_t otherwise) {
 TEST(KeptTolerance, ByEveryPartOfRandomDesigns) {
   test::expect_tolerance_kept(
       asked("TRUEFLANK_SEED", 20),
-      static_cast<int>(asked("TRUEFLANK_DESIGNS", test::survey_size(50, 500))));
+      static_cast<int>(asked("TRUEFLANK_DESIGNS", test::survey_size(15, 500))));
 }
 
 /// The other measure knows nothing of the program's own: it walks on the surface.
 TEST(KeptTolerance, ByPartsOfManySmallDesignsAsAnotherMeasureSeesThem) {
   const std::uint64_t seed = asked("TRUEFLANK_SEED", 20);
-  const auto designs = static_cast<int>(asked("TRUEFLANK_SMALL_DESIGNS", 100));
+  const auto designs =
+      static_cast<int>(asked("TRUEFLANK_SMALL_DESIGNS", test::survey_size(30, 100)));
   test::RandomDesigns random(seed, test::RandomDesigns::Size::kSmall);
   int parts = 0, walked = 0, tried = 0;
   double nearest = 0.0;

@@ -5,6 +5,7 @@
 
 #include "tests/solid/kept_tolerance.h"
 #include "tests/support/sampled_deviation.h"
+#include "tests/support/survey_size.h"
 #include "trueflank/design/design_file.h"
 #include "trueflank/solid/measure/mesh_accuracy.h"
 #include "trueflank/solid/measure/mesh_validity.h"
@@ -164,7 +165,7 @@ TEST(MeasuredMesh, IsThePartsMeshWhereThatKeepsTheTolerance) {
 }
 
 TEST(MeasuredMesh, RandomDesignsOfEveryKindKeepTheTolerance) {
-  test::expect_tolerance_kept(20261122, 20);
+  test::expect_tolerance_kept(20261122, test::survey_size(7, 20));
 }
 
 }  // namespace

@@ -75,6 +75,8 @@ TEST(MeshExact, PartsOfTheExamplesBoundSolidsAlsoIn32Bits) {
     ASSERT_TRUE(shapes) << file;
     for (const PartShape& part : shapes->parts)
       for (double tolerance : {2e-2, 1e-3}) {
+        // (in the gate the fine ones of every third part)
+        if (!test::is_surveyed(tolerance > 1e-2 || parts % 4 == 1)) continue;
         SCOPED_TRACE(file.string() + " " + part.name);
         const TriangleMesh mesh = part_mesh(part, {.tolerance_mm = tolerance}).mesh;
         expect_boundary_of_a_solid(mesh);
@@ -87,7 +89,7 @@ TEST(MeshExact, PartsOfTheExamplesBoundSolidsAlsoIn32Bits) {
 
 TEST(MeshExact, RandomPartsBoundSolidsAlsoIn32Bits) {
   int made = 0;
-  for (std::uint64_t seed = 8000; made < 60; ++seed) {
+  for (std::uint64_t seed = 8000; made < test::survey_size(20, 60); ++seed) {
     const auto random = test::random_part(seed);
     if (!random || random->train->gears[0].profile.gear().teeth > 150) continue;
     SCOPED_TRACE(random->text);

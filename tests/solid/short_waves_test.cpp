@@ -155,7 +155,7 @@ TEST(ShortWaves, AreFollowedWithinTheToleranceAndEstimatedWithinAFactorOfThree) 
   const auto log_between = [&](double low, double high) {
     return std::exp(between(std::log(low), std::log(high)));
   };
-  for (int i = 0; i < test::survey_size(4, 24); ++i) {
+  for (int i = 0; i < test::survey_size(3, 24); ++i) {
     const double tolerance_mm = log_between(1e-3, 6e-3);
     const Wave wave{.amplitude_mm = tolerance_mm * log_between(0.5, 4.0),
                     .over_face = i % 3 == 1 ? 0.0 : log_between(5.0, 400.0),

@@ -22,6 +22,7 @@ def words(each=2, **more):
         parser.add_argument("--least", type=float, default=0.0, help="the share that must be right; exit 1 below")
     parser.add_argument("--only", default="", help="kinds whose name holds this text")
     parser.add_argument("--list", action="store_true", help="every case, not only the wrong ones")
+    parser.add_argument("--one-in", type=int, default=1, help="of the cases, kind after kind, one in so many")
     for name, (default, text) in more.items():
         parser.add_argument(f"--{name}", type=type(default), default=default, help=text)
     return parser.parse_args()
@@ -58,6 +59,7 @@ def campaign(cases, o, *, keys, counts=lambda case: (), worth_a_line=lambda case
     case counts beside "all"; `counts`: figures added to those of its rows, under the further `columns`. `worth_a_line`: right, and yet told."""
     if not cases:
         sys.exit(f"no kind of case has `{o.only}` in its name")
+    cases = cases[::o.one_in]
     run_all(cases, o.program, o.folder, lambda c: print(c.line(), flush=True) if o.list or not c.right or worth_a_line(c) else None)
     rows = collections.defaultdict(list)
     for case in cases:
