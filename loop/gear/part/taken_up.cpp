@@ -14,15 +14,15 @@
 
 #include "trueflank/base/threads.h"
 #include "trueflank/loop/discovery/distributions.h"
-#include "trueflank/loop/gear/effects/drift_of_traces.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/fit/flank_courses.h"
-#include "trueflank/loop/gear/local/drifts_of_traces.h"
 #include "trueflank/loop/gear/local/rotation_waves.h"
 #include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/choice.h"
+#include "trueflank/loop/gear/part/drifts.h"
 #include "trueflank/loop/gear/part/names_beside_forms.h"
 #include "trueflank/loop/gear/part/part_model.h"
+#include "trueflank/loop/gear/part/waves.h"
 #include "trueflank/loop/gear/possible_effects.h"
 #include "trueflank/loop/gear/remainder_around.h"
 #include "trueflank/loop/gear/shape_refinement.h"
@@ -305,29 +305,6 @@ bool is_spot_beyond_doubt(const PointFit& fit, std::size_t effect) {
   return fit.residual_square(with) - fit.residual_square() > kBeyondDoubt;
 }
 
-/// Traces on one zero that stand higher from one to the next. Where that is as even by the teeth
-/// between them, it is a drift around the gear.
-void take_up_drift_of_traces(PartModel& model) {
-  constexpr double kAsWell = 1.5;
-  if (model.options.joined || !model.options.given.empty()) return;
-  const std::optional<DriftOfTraces> drift =
-      drift_of_traces(model.geometry, model.table, *plain_fit(model)->residuals_um());
-  if (!drift) return;
-  const EffectShape& shape = drift->shape;
-  const bool by_turn = shape[gear_effects::kFlanksInTurn] == double(gear_effects::kAlike) &&
-                       shape[gear_effects::kDriftWithin] == 0.0 &&
-                       drift->left_by_turn < kAsWell * drift->left;
-  RemainderFinding finding;
-  finding.p_value = drift->p_value;
-  finding.effect = by_turn
-                       ? Effect{find_family("unnamed_ramp"),
-                                FlankChoice::kBoth,
-                                {shape[gear_effects::kTeethInTurn], 0.0, 0.0, 0.0,
-                                 shape[gear_effects::kZeroOfTraces]}}
-                       : Effect{find_family("unnamed_drift_of_traces"), FlankChoice::kBoth, shape};
-  take_up(model, finding);
-}
-
 }  // namespace
 
 const std::vector<RemainderFinding>& remainder_of(PartModel& model,
@@ -355,7 +332,8 @@ const std::vector<RemainderFinding>& remainder_of(PartModel& model,
 void nominate(PartModel& model) {
   constexpr int kMostWaves = 6;
   for (const RemainderFinding& finding : model.options.start) take_up(model, finding);
-  take_up_drift_of_traces(model);
+  if (const auto drift = drift_over_traces(model)) take_up(model, *drift);
+  for (const RemainderFinding& march : marching_waves(model)) take_up(model, march);
   for (int round = 0; round < kMostWaves; ++round) {
     const auto& findings = remainder_of(model, model.options.given, RemainderOf::kTraining);
     const auto wave = std::find_if(findings.begin(), findings.end(), [](const auto& finding) {

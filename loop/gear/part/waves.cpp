@@ -18,6 +18,7 @@
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/parts_of_forms.h"
 #include "trueflank/loop/gear/part/runs_along.h"
+#include "trueflank/loop/gear/part/taken_up.h"
 #include "trueflank/loop/gear/remainder_around.h"
 #include "trueflank/loop/gear/shape_refinement.h"
 
@@ -129,6 +130,27 @@ WaveAcross wave_across(const FlankGeometry& geometry, const Effect& effect, int 
           .face = waves_along(0.0, 1.0),
           .order = std::remainder(phase(2, 0.0, 0.0) - phase(1, 0.0, 0.0), kTwoPi) / kTwoPi *
                    geometry.teeth()};
+}
+
+std::vector<RemainderFinding> marching_waves(PartModel& model) {
+  constexpr double kNothing = 9.0;  // chi-square
+  std::vector<RemainderFinding> found;
+  if (!model.table->points_mm.empty()) return found;
+  for (const RemainderFinding& finding :
+       remainder_of(model, model.options.given, RemainderOf::kTraining))
+    if (finding.effect && finding.effect->family == find_family("unnamed_marks") &&
+        is_told_apart(model, *finding.effect, model.options.given))
+      found.push_back(finding);
+  if (found.size() != 2 || found[0].effect->shape != found[1].effect->shape) return found;
+  std::vector<Effect> apart = model.options.given, together = apart;
+  for (const RemainderFinding& finding : found) apart.push_back(*finding.effect);
+  together.push_back({found[0].effect->family, FlankChoice::kBoth, found[0].effect->shape});
+  if (fit_of(model, together)->residual_square() <
+      fit_of(model, apart)->residual_square() + kNothing) {
+    found[0].effect->flank = FlankChoice::kBoth;
+    found.pop_back();
+  }
+  return found;
 }
 
 bool tell_as_part_of_a_wave(PartModel& model, const std::vector<std::size_t>& all, int face,

@@ -20,6 +20,11 @@ struct WaveAcross {
 
 [[nodiscard]] WaveAcross wave_across(const FlankGeometry& geometry, const Effect& effect, int side);
 
+/// Waves over the face, on traces, that march from tooth to tooth, beside what is given: of both
+/// flanks where these have one phase. Of few traced teeth a wave that all have alike predicts
+/// nearly as much: they are to stand before that is chosen.
+[[nodiscard]] std::vector<RemainderFinding> marching_waves(PartModel& model);
+
 /// A part of a wave along one direction for what runs there on these flanks in pieces.
 [[nodiscard]] bool tell_as_part_of_a_wave(PartModel& model, const std::vector<std::size_t>& all,
                                           int face, FlankChoice flank);
