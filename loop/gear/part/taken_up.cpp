@@ -334,6 +334,7 @@ void nominate(PartModel& model) {
   for (const RemainderFinding& finding : model.options.start) take_up(model, finding);
   if (const auto drift = drift_over_traces(model)) take_up(model, *drift);
   for (const RemainderFinding& march : marching_waves(model)) take_up(model, march);
+  for (const RemainderFinding& wave : waves_of_odd_course(model)) take_up(model, wave);
   for (int round = 0; round < kMostWaves; ++round) {
     const auto& findings = remainder_of(model, model.options.given, RemainderOf::kTraining);
     const auto wave = std::find_if(findings.begin(), findings.end(), [](const auto& finding) {

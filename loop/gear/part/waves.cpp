@@ -14,6 +14,7 @@
 #include "trueflank/base/units.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/local/likeliest_products.h"
+#include "trueflank/loop/gear/local/odd_waves.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/parts_of_forms.h"
@@ -104,6 +105,25 @@ SetsOfAWave sets_of_a_wave(const PartModel& model, int face) {
   return found;
 }
 
+/// Waves of one shape on either flank that have one phase are one of both.
+void join_waves_of_flanks(const PartModel& model, std::vector<RemainderFinding>& waves) {
+  constexpr double kNothing = 9.0;  // chi-square
+  for (std::size_t i = 0; i + 1 < waves.size(); ++i) {
+    const Effect &one = *waves[i].effect, &other = *waves[i + 1].effect;
+    if (one.family != other.family || one.shape != other.shape || one.flank == other.flank)
+      continue;
+    std::vector<Effect> apart = model.options.given, together = apart;
+    apart.push_back(one);
+    apart.push_back(other);
+    together.push_back({one.family, FlankChoice::kBoth, one.shape});
+    if (fit_of(model, together)->residual_square() >
+        fit_of(model, apart)->residual_square() + kNothing)
+      continue;
+    waves[i].effect->flank = FlankChoice::kBoth;
+    waves.erase(waves.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+  }
+}
+
 }  // namespace
 
 WaveAcross wave_across(const FlankGeometry& geometry, const Effect& effect, int side) {
@@ -133,7 +153,6 @@ WaveAcross wave_across(const FlankGeometry& geometry, const Effect& effect, int 
 }
 
 std::vector<RemainderFinding> marching_waves(PartModel& model) {
-  constexpr double kNothing = 9.0;  // chi-square
   std::vector<RemainderFinding> found;
   if (!model.table->points_mm.empty()) return found;
   for (const RemainderFinding& finding :
@@ -141,14 +160,25 @@ std::vector<RemainderFinding> marching_waves(PartModel& model) {
     if (finding.effect && finding.effect->family == find_family("unnamed_marks") &&
         is_told_apart(model, *finding.effect, model.options.given))
       found.push_back(finding);
-  if (found.size() != 2 || found[0].effect->shape != found[1].effect->shape) return found;
-  std::vector<Effect> apart = model.options.given, together = apart;
-  for (const RemainderFinding& finding : found) apart.push_back(*finding.effect);
-  together.push_back({found[0].effect->family, FlankChoice::kBoth, found[0].effect->shape});
-  if (fit_of(model, together)->residual_square() <
-      fit_of(model, apart)->residual_square() + kNothing) {
-    found[0].effect->flank = FlankChoice::kBoth;
-    found.pop_back();
+  join_waves_of_flanks(model, found);
+  return found;
+}
+
+std::vector<RemainderFinding> waves_of_odd_course(const PartModel& model) {
+  std::vector<RemainderFinding> found;
+  if (!model.table->points_mm.empty()) return found;
+  for (OddWave& wave : odd_waves(model.geometry, model.table, model.patches,
+                                 *fit_of(model, model.options.given)->residuals_um())) {
+    found.emplace_back();
+    found.back().p_value = wave.p_value;
+    found.back().effect = std::move(wave.form);
+  }
+  join_waves_of_flanks(model, found);
+  for (RemainderFinding& finding : found) {
+    std::vector<Effect> with = model.options.given;
+    with.push_back(*finding.effect);
+    refine_nearby(model.geometry, model.table, model.patches, with);
+    finding.effect = with.back();
   }
   return found;
 }

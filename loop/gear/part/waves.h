@@ -25,6 +25,10 @@ struct WaveAcross {
 /// nearly as much: they are to stand before that is chosen.
 [[nodiscard]] std::vector<RemainderFinding> marching_waves(PartModel& model);
 
+/// Waves of traces that change their length along the flank, or die away from an end, beside what
+/// is given: waves of one length, jumps and ridges that follow them together need not be chosen.
+[[nodiscard]] std::vector<RemainderFinding> waves_of_odd_course(const PartModel& model);
+
 /// A part of a wave along one direction for what runs there on these flanks in pieces.
 [[nodiscard]] bool tell_as_part_of_a_wave(PartModel& model, const std::vector<std::size_t>& all,
                                           int face, FlankChoice flank);
