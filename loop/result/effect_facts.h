@@ -27,7 +27,7 @@ struct TermKey {
     kInteger,
     kNumber,
     kWord,
-    kNumbers,  ///< all values that follow, as many as the first of the shape says: a list
+    kNumbers,  ///< all values from there on: a list
   };
   std::string name;
   Kind kind = Kind::kInteger;

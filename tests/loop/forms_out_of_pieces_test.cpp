@@ -17,7 +17,7 @@
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/forms_around.h"
-#include "trueflank/loop/gear/part/forms_of_runs.h"
+#include "trueflank/loop/gear/part/forms_of_teeth.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/names.h"
 #include "trueflank/loop/gear/part/one_flank.h"

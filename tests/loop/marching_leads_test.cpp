@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "tests/loop/made_gears.h"
 
@@ -102,6 +104,54 @@ TEST(MarchingLeads, OneThatKeepsStepNearlyIsNoWholeOrder) {
     const auto result = closed(march, true, 3);
     expect_told(result, march, "");
     EXPECT_TRUE(tells(result, "no whole number")) << list(result);
+  }
+}
+
+// Teeth drawn at uneven places, or nearly even ones, whose phases are nearly alike.
+TEST(MarchingLeads, OfFewTeethAreToldWithLengthAndOrder) {
+  std::mt19937_64 random(44);
+  int told = 0;
+  constexpr int kDraws = 8;
+  for (unsigned draw = 0; draw < kDraws; ++draw) {
+    March march = drawn(random, true);
+    march.teeth = static_cast<int>(std::uniform_real_distribution<double>(26.0, 56.0)(random));
+    const auto traced_of = static_cast<std::size_t>(8 + draw % 5);
+    std::vector<int> teeth;
+    for (int tooth = 1; tooth <= march.teeth; ++tooth) teeth.push_back(tooth);
+    std::shuffle(teeth.begin(), teeth.end(), random);
+    teeth.resize(traced_of);
+    std::sort(teeth.begin(), teeth.end());
+    if (draw == 0) {  // as many periods as teeth: the phases go round 1.4 times in all
+      march.teeth = 52;
+      march.order = 10.0;
+      teeth = {2, 7, 12, 18, 23, 28, 33, 38, 44, 49};
+    }
+    const MadeGear gear = spur(march.teeth);
+    InspectionOptions options = traced(teeth, 0.08 * march.um, draw);
+    options.profile = draw % 2 == 0;
+    const auto result = close(
+        gear,
+        inspection_of(gear, {grown([&](auto&, const FlankSpot& s, auto&) { return at(march, s); })},
+                      options));
+    expect_told(result, march, "draw " + std::to_string(draw) + ": ");
+    told += tells(result, "march from tooth to tooth") ? 1 : 0;
+  }
+  EXPECT_EQ(told, kDraws);
+}
+
+// The same on every tooth: no order is sought in what errors leave of it.
+TEST(MarchingLeads, OfFewTeethAreNoneWhereAllTeethAreAlike) {
+  std::mt19937_64 random(45);
+  for (unsigned draw = 0; draw < 4; ++draw) {
+    March march = drawn(random, true);
+    march.order = 0.0;
+    const MadeGear gear = spur(march.teeth);
+    const auto result = close(
+        gear,
+        inspection_of(gear, {grown([&](auto&, const FlankSpot& s, auto&) { return at(march, s); })},
+                      traced({1, 4, 6, 11, 15}, 0.7, draw)));
+    EXPECT_FALSE(tells(result, "march from tooth to tooth")) << draw << list(result);
+    EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << draw << list(result);
   }
 }
 

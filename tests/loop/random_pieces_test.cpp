@@ -16,7 +16,6 @@
 #include "trueflank/loop/gear/part/drifts.h"
 #include "trueflank/loop/gear/part/fields.h"
 #include "trueflank/loop/gear/part/forms_around.h"
-#include "trueflank/loop/gear/part/forms_of_runs.h"
 #include "trueflank/loop/gear/part/forms_of_teeth.h"
 #include "trueflank/loop/gear/part/names.h"
 #include "trueflank/loop/gear/part/names_beside_forms.h"

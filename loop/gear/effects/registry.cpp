@@ -92,6 +92,7 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_alternation(),
         unnamed_ramp(),
         unnamed_levelling(),
+        unnamed_drift_of_traces(),
         unnamed_drift_aside(),
         unnamed_broken_wave(),
         unnamed_saw(),

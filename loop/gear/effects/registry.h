@@ -123,6 +123,7 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_alternation();
 [[nodiscard]] EffectFamily unnamed_ramp();
 [[nodiscard]] EffectFamily unnamed_levelling();
+[[nodiscard]] EffectFamily unnamed_drift_of_traces();
 [[nodiscard]] EffectFamily unnamed_drift_aside();
 [[nodiscard]] EffectFamily unnamed_broken_wave();
 [[nodiscard]] EffectFamily unnamed_saw();

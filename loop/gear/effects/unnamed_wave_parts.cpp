@@ -188,9 +188,14 @@ EffectFamily unnamed_waves_changing() {
   f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
   f.term_keys = {kAlong, number("wavelength_mm"), number("change")};
   f.nearby = [](const FlankGeometry&, const EffectShape& shape) {
-    constexpr double kMost = 0.8;
+    constexpr double kMost = 0.97;
     std::vector<EffectShape> shapes = lengths_beside(shape);
-    for (const double off : {-0.1, -0.03, -0.01, 0.01, 0.03, 0.1})
+    // (of many waves a thousandth more is a tenth of a wave at the end)
+    for (const double times : {0.999, 1.001}) {
+      shapes.push_back(shape);
+      shapes.back()[1] *= times;
+    }
+    for (const double off : {-0.1, -0.03, -0.01, -0.003, -0.001, 0.001, 0.003, 0.01, 0.03, 0.1})
       if (std::abs(shape[2] + off) < kMost) shapes.push_back({shape[0], shape[1], shape[2] + off});
     return shapes;
   };

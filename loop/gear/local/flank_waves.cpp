@@ -11,6 +11,7 @@
 #include "trueflank/base/widest_registers.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/order_statistics.h"
+#include "trueflank/loop/gear/local/marching_leads.h"
 #include "trueflank/loop/gear/local/own_waves.h"
 #include "trueflank/loop/gear/local/wave_products.h"
 #include "trueflank/loop/gear/table/thinned_rows.h"
@@ -539,8 +540,10 @@ FlankSpectrum flank_spectrum(const FlankGeometry& geometry, const Observations& 
 std::vector<FlankWaves> waves_of_leads(const FlankGeometry& geometry, const Observations& table,
                                        const std::vector<float>& row_um,
                                        const std::vector<bool>& used) {
-  return flank_waves::Spectrum(geometry, table, row_um, used, ObservationKind::kHelix)
-      .waves_of_leads();
+  std::vector<FlankWaves> found =
+      flank_waves::Spectrum(geometry, table, row_um, used, ObservationKind::kHelix)
+          .waves_of_leads();
+  return found.empty() ? marching_leads(geometry, table, row_um, used) : found;
 }
 
 }  // namespace trueflank::loop

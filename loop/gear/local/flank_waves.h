@@ -62,8 +62,9 @@ struct FlankSpectrum {
                                            const std::vector<bool>& used);
 
 /// Waves over the face in helix traces whose phase runs on from tooth to tooth, by whole or half
-/// orders: the largest of either side, judged as those of scans are. None where fewer than seven
-/// teeth in ten have a trace, or where it is less than a tenth of the traces' squares.
+/// orders: the largest of either side, judged as those of scans are. None where it is less than a
+/// tenth of the traces' squares. Where fewer than seven teeth in ten have a trace, by whole orders
+/// that no other looks like (marching_leads.h).
 [[nodiscard]] std::vector<FlankWaves> waves_of_leads(const FlankGeometry& geometry,
                                                      const Observations& table,
                                                      const std::vector<float>& row_um,

@@ -8,7 +8,7 @@
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/finite_displacement.h"
 #include "trueflank/loop/gear/part/bans.h"
-#include "trueflank/loop/gear/part/forms_of_runs.h"
+#include "trueflank/loop/gear/part/forms_of_teeth.h"
 #include "trueflank/loop/gear/part/single_teeth.h"
 #include "trueflank/loop/gear/plain_rms.h"
 #include "trueflank/loop/gear/shape_refinement.h"

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/effects/drift_of_traces.h"
+#include "trueflank/loop/gear/local/drifts_of_traces.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/part_model.h"
@@ -254,6 +256,27 @@ Drifting from_nothing(const Effect& effect) {
 }
 
 }  // namespace
+
+std::optional<RemainderFinding> drift_over_traces(const PartModel& model) {
+  constexpr double kAsWell = 1.5;
+  if (model.options.joined || !model.options.given.empty()) return {};
+  const std::optional<DriftOfTraces> drift =
+      drift_of_traces(model.geometry, model.table, *plain_fit(model)->residuals_um());
+  if (!drift) return {};
+  const EffectShape& shape = drift->shape;
+  const bool by_turn = shape[gear_effects::kFlanksInTurn] == double(gear_effects::kAlike) &&
+                       shape[gear_effects::kDriftWithin] == 0.0 &&
+                       drift->left_by_turn < kAsWell * drift->left;
+  RemainderFinding finding;
+  finding.p_value = drift->p_value;
+  finding.effect = by_turn
+                       ? Effect{find_family("unnamed_ramp"),
+                                FlankChoice::kBoth,
+                                {shape[gear_effects::kTeethInTurn], 0.0, 0.0, 0.0,
+                                 shape[gear_effects::kZeroOfTraces]}}
+                       : Effect{find_family("unnamed_drift_of_traces"), FlankChoice::kBoth, shape};
+  return finding;
+}
 
 bool tell_from_nothing(PartModel& model) {
   constexpr double kNothing = 9.0, kClearly = 36.0;  // chi-square

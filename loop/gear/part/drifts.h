@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "trueflank/loop/gear/part/part_model.h"
 
 namespace trueflank::loop {
 
+/// Traces on one zero that stand higher from one to the next; where that is as even by the teeth
+/// between them, a drift around the gear. Before anything was found.
+[[nodiscard]] std::optional<RemainderFinding> drift_over_traces(const PartModel& model);
 /// Teeth that drift aside as one body, and a wave that does not close, are drifts, sectors, waves
 /// and odd teeth together.
 [[nodiscard]] bool tell_as_drift_aside(PartModel& model);

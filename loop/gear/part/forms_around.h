@@ -15,5 +15,10 @@ namespace trueflank::loop {
 /// hold_to_single_values), and slopes of traces that ended in pieces: told with one form that goes
 /// from tooth to tooth where that costs clearly less.
 void take_form_around(PartModel& model);
+/// Waves of a scan that come again with every so many teeth, each tooth as it stands, are the
+/// values of so many teeth that repeat: told as that pattern where it leaves no more. One wave by
+/// itself is a pattern of three teeth, where it has more periods a turn than waves of machines
+/// have; of more teeth it takes several waves.
+void tell_waves_as_pattern(PartModel& model);
 
 }  // namespace trueflank::loop

@@ -2,7 +2,7 @@
 // What some neighbouring teeth have along their flanks and the others have not: found from every
 // tooth's own course, before waves around the gear make of it one form of all teeth. It is taken
 // up, and all else is chosen anew beside it (whole_forms.cpp).
-#include "trueflank/loop/gear/part/forms_of_runs.h"
+#include "trueflank/loop/gear/part/forms_of_teeth.h"
 
 #include <algorithm>
 #include <cmath>

@@ -15,4 +15,17 @@ void tell_forms_of_some_teeth(PartModel& model);
 /// have: waves around the gear, and orders of a machine, were what made of it one of all teeth.
 void tell_forms_of_sectors(PartModel& model);
 
+/// What is left of every row, with what these effects say added.
+[[nodiscard]] std::vector<double> left_with(const PartModel& model,
+                                            const std::vector<std::size_t>& these);
+/// A form along the flanks of a run of teeth, with sharp or soft edges, in place of the forms
+/// without a name that differ along the flanks, or beside them: where that costs least.
+[[nodiscard]] std::vector<Effect> with_form_on_teeth(const PartModel& model,
+                                                     std::vector<std::size_t>& these,
+                                                     double& p_value);
+
+/// True where a form of a run of teeth was nearly undone by one that all teeth have: the other
+/// teeth have it, and these have nothing.
+[[nodiscard]] bool tell_of_the_other_teeth(PartModel& model);
+
 }  // namespace trueflank::loop

@@ -16,7 +16,7 @@
 #include "trueflank/loop/gear/part/drifts.h"
 #include "trueflank/loop/gear/part/fields.h"
 #include "trueflank/loop/gear/part/forms_around.h"
-#include "trueflank/loop/gear/part/forms_of_runs.h"
+#include "trueflank/loop/gear/part/forms_of_teeth.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/names_beside_forms.h"
 #include "trueflank/loop/gear/part/one_flank.h"

@@ -19,8 +19,10 @@
 #include "trueflank/loop/gear/local/rotation_waves.h"
 #include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/choice.h"
+#include "trueflank/loop/gear/part/drifts.h"
 #include "trueflank/loop/gear/part/names_beside_forms.h"
 #include "trueflank/loop/gear/part/part_model.h"
+#include "trueflank/loop/gear/part/waves.h"
 #include "trueflank/loop/gear/possible_effects.h"
 #include "trueflank/loop/gear/remainder_around.h"
 #include "trueflank/loop/gear/shape_refinement.h"
@@ -330,6 +332,9 @@ const std::vector<RemainderFinding>& remainder_of(PartModel& model,
 void nominate(PartModel& model) {
   constexpr int kMostWaves = 6;
   for (const RemainderFinding& finding : model.options.start) take_up(model, finding);
+  if (const auto drift = drift_over_traces(model)) take_up(model, *drift);
+  for (const RemainderFinding& march : marching_waves(model)) take_up(model, march);
+  for (const RemainderFinding& wave : waves_of_odd_course(model)) take_up(model, wave);
   for (int round = 0; round < kMostWaves; ++round) {
     const auto& findings = remainder_of(model, model.options.given, RemainderOf::kTraining);
     const auto wave = std::find_if(findings.begin(), findings.end(), [](const auto& finding) {

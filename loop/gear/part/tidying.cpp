@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/distributions.h"
@@ -493,6 +494,37 @@ void take_over(PartModel& model, PartModel& other) {
   forget_fits(model);
 }
 
+namespace {
+
+/// Of an index alone, where every tooth is left with a place of its own: whether chance makes a
+/// wave as large of so few teeth. (Once per turn is asked by itself, of other orders the largest.)
+bool is_as_of_places_by_chance(const PartModel& model, std::size_t e,
+                               const std::vector<float>& with_um,
+                               const std::vector<float>& without_um, const WhatIsLeft& known) {
+  constexpr double kLevel = 0.003;
+  const Effect& wave = model.effects[e];
+  if (!known.places.any || known.places.of_gaps ||
+      !std::all_of(model.table->rows.begin(), model.table->rows.end(),
+                   [](const Observation& row) { return row.kind == ObservationKind::kIndex; }))
+    return false;
+  double with = 0.0, without = 0.0;
+  std::set<int> teeth;
+  for (std::size_t i = 0; i < with_um.size(); ++i) {
+    if (model.patches.patch_of_row[i] < 0) continue;
+    with += std::pow(static_cast<double>(with_um[i]), 2);
+    without += std::pow(static_cast<double>(without_um[i]), 2);
+    teeth.insert(model.table->place(model.table->rows[i]).tooth);
+  }
+  double free = static_cast<double>(teeth.size()) - 1.0;
+  for (const Effect& effect : model.effects) free -= effect.columns();
+  if (!(free > 0.0)) return true;
+  const bool once = wave.columns() == 2 && wave.order() <= 1.0;
+  const double orders = once ? 1.0 : 0.5 * model.geometry.teeth(), columns = wave.columns();
+  return orders * f_tail((without - with) / columns / (with / free), columns, free) > kLevel;
+}
+
+}  // namespace
+
 void doubt_names_below_what_is_left(PartModel& model) {
   constexpr double kLess = 0.25, kShows = 0.01;  // of squares
   const std::size_t told = first_told_here(model);
@@ -530,9 +562,10 @@ void doubt_names_below_what_is_left(PartModel& model) {
     const bool slopes =
         family.tells_order_along_profile && model.table->points_mm.empty() &&
         is_wave_of_straight_traces(model.geometry, model.table, *bare_um, *after_um);
-    if (stands && !slopes) continue;
+    const bool chance = is_as_of_places_by_chance(model, e, *after_um, *bare_um, known);
+    if (stands && !slopes && !chance) continue;
     if (const EffectFamily* form = find_form(model.effects[e].family->form_word);
-        form != nullptr && !slopes) {
+        form != nullptr && !slopes && !chance) {
       model.effects[e].family = form;
       continue;
     }

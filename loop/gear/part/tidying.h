@@ -40,7 +40,7 @@ void drop_names_that_may_be_nothing(PartModel& model);
 void take_over(PartModel& model, PartModel& other);
 /// While structure is left, a name that does less than what is left, in every kind of record that
 /// shows it, is as likely a part of that: it is told as a form, or not at all. So is a machine's
-/// order that straight traces look like.
+/// order that straight traces look like, and of an index what random places of few teeth may make.
 void doubt_names_below_what_is_left(PartModel& model);
 /// Forms that a better one, taken up later, made idle. True where there were any.
 [[nodiscard]] bool drop_idle_forms(PartModel& model);

@@ -15,10 +15,12 @@
 #include "trueflank/base/units.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/local/likeliest_products.h"
+#include "trueflank/loop/gear/local/odd_waves.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/parts_of_forms.h"
 #include "trueflank/loop/gear/part/runs_along.h"
+#include "trueflank/loop/gear/part/taken_up.h"
 #include "trueflank/loop/gear/remainder_around.h"
 #include "trueflank/loop/gear/shape_refinement.h"
 
@@ -104,59 +106,23 @@ SetsOfAWave sets_of_a_wave(const PartModel& model, int face) {
   return found;
 }
 
-/// What waves add up to on every tooth [um], on the flank that lies counter-clockwise.
-std::vector<double> on_teeth_um(const PartModel& model, const std::vector<std::size_t>& waves) {
-  const FlankGeometry& geometry = model.geometry;
-  const auto fit = fit_of(model, model.effects);
-  const double roll = 0.5 * (geometry.root_form_roll_mm() + geometry.tip_form_roll_mm());
-  std::vector<double> um;
-  for (int tooth = 1; tooth <= geometry.teeth(); ++tooth) {
-    double& sum = um.emplace_back(0.0);
-    for (const std::size_t e : waves) {
-      std::array<double, 8> columns{};
-      model.effects[e].evaluate(geometry,
-                                geometry.on_flank(tooth, 1, roll, 0.5 * geometry.face_width_mm()),
-                                columns.data());
-      for (int c = 0; c < model.effects[e].columns(); ++c)
-        sum += columns[static_cast<std::size_t>(c)] *
-               fit->coefficients()[fit->first_column(static_cast<int>(e)) + c];
-    }
-  }
-  return um;
-}
-
-/// Waves of both flanks, each tooth as it stands, of orders that are multiples; opposite on the
-/// flanks, so that the teeth stand aside, or alike.
-std::vector<std::size_t> waves_of(const PartModel& model, int of, bool opposite) {
-  const FlankGeometry& geometry = model.geometry;
-  const double roll = 0.5 * (geometry.root_form_roll_mm() + geometry.tip_form_roll_mm()),
-               middle = 0.5 * geometry.face_width_mm();
-  std::vector<std::size_t> waves;
-  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
-    const Effect& effect = model.effects[e];
-    const bool alternates = effect.family == find_family("unnamed_alternation") &&
-                            effect.shape[0] == 0.0 && effect.shape[1] == 0.0;
-    if (effect.flank != FlankChoice::kBoth || effect.family->displacement_mm ||
-        !(alternates || (is_wave_around(effect) && effect.columns() == 2)) ||
-        std::remainder(alternates ? 0.5 * geometry.teeth() : effect.order(), double(of)) != 0.0)
+/// Waves of one shape on either flank that have one phase are one of both.
+void join_waves_of_flanks(const PartModel& model, std::vector<RemainderFinding>& waves) {
+  constexpr double kNothing = 9.0;  // chi-square
+  for (std::size_t i = 0; i + 1 < waves.size(); ++i) {
+    const Effect &one = *waves[i].effect, &other = *waves[i + 1].effect;
+    if (one.family != other.family || one.shape != other.shape || one.flank == other.flank)
       continue;
-    std::array<double, 2> one{}, other{};
-    effect.evaluate(geometry, geometry.on_flank(1, 1, roll, middle), one.data());
-    effect.evaluate(geometry, geometry.on_flank(1, -1, roll, middle), other.data());
-    if ((one[0] * other[0] + one[1] * other[1] < 0.0) == opposite) waves.push_back(e);
+    std::vector<Effect> apart = model.options.given, together = apart;
+    apart.push_back(one);
+    apart.push_back(other);
+    together.push_back({one.family, FlankChoice::kBoth, one.shape});
+    if (fit_of(model, together)->residual_square() >
+        fit_of(model, apart)->residual_square() + kNothing)
+      continue;
+    waves[i].effect->flank = FlankChoice::kBoth;
+    waves.erase(waves.begin() + static_cast<std::ptrdiff_t>(i) + 1);
   }
-  return waves;
-}
-
-/// The first teeth's values as a pattern, about their mean and of a mean square of 1.
-Effect pattern_of(const std::vector<double>& um, int every, bool opposite) {
-  std::vector<double> own(um.begin(), um.begin() + every);
-  double mean = 0.0, square = 0.0;
-  for (const double value : own) mean += value / every;
-  for (const double value : own) square += (value - mean) * (value - mean) / every;
-  EffectShape shape{double(every), 1.0, opposite ? 1.0 : 0.0};
-  for (const double value : own) shape.push_back((value - mean) / std::sqrt(square));
-  return {find_family("unnamed_pattern"), FlankChoice::kBoth, std::move(shape)};
 }
 
 }  // namespace
@@ -185,6 +151,37 @@ WaveAcross wave_across(const FlankGeometry& geometry, const Effect& effect, int 
           .face = waves_along(0.0, 1.0),
           .order = std::remainder(phase(2, 0.0, 0.0) - phase(1, 0.0, 0.0), kTwoPi) / kTwoPi *
                    geometry.teeth()};
+}
+
+std::vector<RemainderFinding> marching_waves(PartModel& model) {
+  std::vector<RemainderFinding> found;
+  if (!model.table->points_mm.empty()) return found;
+  for (const RemainderFinding& finding :
+       remainder_of(model, model.options.given, RemainderOf::kTraining))
+    if (finding.effect && finding.effect->family == find_family("unnamed_marks") &&
+        is_told_apart(model, *finding.effect, model.options.given))
+      found.push_back(finding);
+  join_waves_of_flanks(model, found);
+  return found;
+}
+
+std::vector<RemainderFinding> waves_of_odd_course(const PartModel& model) {
+  std::vector<RemainderFinding> found;
+  if (!model.table->points_mm.empty()) return found;
+  for (OddWave& wave : odd_waves(model.geometry, model.table, model.patches,
+                                 *fit_of(model, model.options.given)->residuals_um())) {
+    found.emplace_back();
+    found.back().p_value = wave.p_value;
+    found.back().effect = std::move(wave.form);
+  }
+  join_waves_of_flanks(model, found);
+  for (RemainderFinding& finding : found) {
+    std::vector<Effect> with = model.options.given;
+    with.push_back(*finding.effect);
+    refine_nearby(model.geometry, model.table, model.patches, with);
+    finding.effect = with.back();
+  }
+  return found;
 }
 
 bool tell_as_part_of_a_wave(PartModel& model, const std::vector<std::size_t>& all, int face,
@@ -516,30 +513,6 @@ bool tell_as_waves_of_both_flanks(PartModel& model) {
         return true;
     }
   return false;
-}
-
-void tell_waves_as_pattern(PartModel& model) {
-  constexpr int kFewest = 3, kMost = 8, kOfMachines = 7;
-  constexpr double kNothing = 4.0;  // chi-square
-  if (model.table->points_mm.empty() || model.options.joined) return;
-  const int z = model.geometry.teeth();
-  for (int every = kFewest; every <= kMost; ++every)
-    for (const bool opposite : {true, false}) {
-      if (z % every != 0 || z / every < 2) continue;
-      const std::vector<std::size_t> waves = waves_of(model, z / every, opposite);
-      const bool alone = every == kFewest && z / every > kOfMachines;
-      if (waves.size() < (alone ? 1U : 2U)) continue;
-      std::vector<Effect> with;
-      for (std::size_t e = 0; e < model.effects.size(); ++e)
-        if (std::find(waves.begin(), waves.end(), e) == waves.end())
-          with.push_back(model.effects[e]);
-      with.push_back(pattern_of(on_teeth_um(model, waves), every, opposite));
-      if (fit_of(model, with)->residual_square() >
-          fit_of(model, model.effects)->residual_square() + kNothing)
-        continue;
-      put_in_place_of(model, waves, with);
-      return;
-    }
 }
 
 }  // namespace trueflank::loop

@@ -20,6 +20,15 @@ struct WaveAcross {
 
 [[nodiscard]] WaveAcross wave_across(const FlankGeometry& geometry, const Effect& effect, int side);
 
+/// Waves over the face, on traces, that march from tooth to tooth, beside what is given: of both
+/// flanks where these have one phase. Of few traced teeth a wave that all have alike predicts
+/// nearly as much: they are to stand before that is chosen.
+[[nodiscard]] std::vector<RemainderFinding> marching_waves(PartModel& model);
+
+/// Waves of traces that change their length along the flank, or die away from an end, beside what
+/// is given: waves of one length, jumps and ridges that follow them together need not be chosen.
+[[nodiscard]] std::vector<RemainderFinding> waves_of_odd_course(const PartModel& model);
+
 /// A part of a wave along one direction for what runs there on these flanks in pieces.
 [[nodiscard]] bool tell_as_part_of_a_wave(PartModel& model, const std::vector<std::size_t>& all,
                                           int face, FlankChoice flank);
@@ -52,10 +61,5 @@ void tell_waves_of_a_form(PartModel& model);
 /// Waves of one length along the flanks, told of either flank, are one wave of both, in phase or
 /// opposite: an axis that is in waves lifts one flank where it lowers the other.
 [[nodiscard]] bool tell_as_waves_of_both_flanks(PartModel& model);
-/// Waves of a scan that come again with every so many teeth, each tooth as it stands, are the
-/// values of so many teeth that repeat: told as that pattern where it leaves no more. One wave by
-/// itself is a pattern of three teeth, where it has more periods a turn than waves of machines
-/// have; of more teeth it takes several waves.
-void tell_waves_as_pattern(PartModel& model);
 
 }  // namespace trueflank::loop
