@@ -230,7 +230,10 @@ std::vector<RemainderFinding> forms_around(const PartModel& model, const CourseO
       if (form.family->nearby)
         square = move_alone(model.geometry, fit, with.size() - 1, form.shape);
       with.back() = form;
-      const double cost = cost_around(model.geometry, count, square, with);
+      // (blocks look like swellings where the noise is large)
+      constexpr double kOfBlocks = 25.0;
+      const double cost = cost_around(model.geometry, count, square, with) +
+                          (form.family == find_family("unnamed_sectors") ? kOfBlocks : 0.0);
       if (cost >= best.first) continue;
       best.first = cost;
       best.second.p_value =
@@ -425,7 +428,8 @@ bool tell_as_repeating(PartModel& model) {
       if (flank == FlankChoice::kBoth)
         for (Effect& aside : sectors_around(z, flank, 1.0, number))
           sectors.push_back(std::move(aside));
-      if (put_form_for_multiples(model, around, number, 2, sectors)) return true;
+      // (a few waves are swellings as well)
+      if (put_form_for_multiples(model, around, number, 3, sectors)) return true;
     }
   }
   return false;
