@@ -99,6 +99,7 @@ struct InspectionOptions {
   bool profile = true, helix = true, index = true, radial = false;
   bool common_zero = false;
   unsigned seed = 1;
+  std::vector<double> profiles_at = {0.0};  ///< heights of profile traces, -1 ... +1 over the face
 };
 
 /// Distance of a made flank from the designed one along the normal, at first order of the displacement.
@@ -139,16 +140,18 @@ inline loop::InspectionData inspection_of(const MadeGear& g, const std::vector<P
     for (const int side : {1, -1})
       for (const bool is_profile : {true, false}) {
         if (is_profile ? !o.profile : !o.helix) continue;
-        const double zero = o.common_zero ? 0.0 : 7.0 * normal(random);
-        double error = normal(random);
-        for (int i = 0; i < o.points; ++i) {
-          const double c = 0.95 * (2.0 * i / (o.points - 1.0) - 1.0);
-          const FlankSpot s = is_profile ? FlankSpot{tooth, side, c, 0.0}
-                                         : FlankSpot{tooth, side, u_ref, c};
-          error = o.correlation * error +
-                  std::sqrt(1.0 - o.correlation * o.correlation) * normal(random);
-          add(is_profile ? loop::RecordKind::kProfile : loop::RecordKind::kHelix, s,
-              deviation_um(g, s, processes) + zero + o.noise_um * error);
+        for (const double at : is_profile ? o.profiles_at : std::vector{u_ref}) {
+          const double zero = o.common_zero ? 0.0 : 7.0 * normal(random);
+          double error = normal(random);
+          for (int i = 0; i < o.points; ++i) {
+            const double c = 0.95 * (2.0 * i / (o.points - 1.0) - 1.0);
+            const FlankSpot s =
+                is_profile ? FlankSpot{tooth, side, c, at} : FlankSpot{tooth, side, at, c};
+            error = o.correlation * error +
+                    std::sqrt(1.0 - o.correlation * o.correlation) * normal(random);
+            add(is_profile ? loop::RecordKind::kProfile : loop::RecordKind::kHelix, s,
+                deviation_um(g, s, processes) + zero + o.noise_um * error);
+          }
         }
       }
   if (o.index)

@@ -53,7 +53,7 @@ EffectFamily unnamed_moved_part() {
     two_directions(g, p, on ? 1.0 : 0.0, c);
   };
   f.faces_a_direction = true;
-  f.values_sought = [](const EffectShape&) { return 2; };
+  f.is_followed_nearly = true;  // (patches of a scan do not end at its edges)
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     const double pitch_deg = 360.0 / g.teeth();
     std::vector<EffectShape> shapes;

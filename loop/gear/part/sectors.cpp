@@ -530,22 +530,26 @@ std::vector<Effect> with_sector(PartModel& model, std::vector<std::size_t>& thes
 }
 
 bool tell_as_moved_part(PartModel& model) {
-  constexpr int kMoreValues = 2, kSteps = 4;  // of an end, a quarter of a pitch each
+  constexpr int kMoreValues = 2, kSteps = 6;  // of an end, a sixth of a pitch each
   const EffectFamily *teeth = find_family("unnamed_moved_sector"),
                      *part = find_family("unnamed_moved_part");
   if (model.table->points_mm.empty()) return false;
-  const double pitch_deg = 360.0 / model.geometry.teeth();
+  const double pitch_deg = 360.0 / model.geometry.teeth(),
+               first_deg = deg_from_rad(model.geometry.centre_rad(1));
   for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
-    const Effect& sector = model.effects[e];
-    if (sector.family != teeth) continue;
-    const double first = sector.shape[0], count = sector.shape[1];
+    const Effect& moved = model.effects[e];
+    if (moved.family != teeth && moved.family != part) continue;
+    const bool by_teeth = moved.family == teeth;
+    const double first = by_teeth ? moved.shape[0] : (moved.shape[0] - first_deg) / pitch_deg + 1.5,
+                 count = by_teeth ? moved.shape[1] : moved.shape[1] / pitch_deg;
     std::vector<std::size_t> with_ends;
     for (std::size_t other = first_told_here(model); other < model.effects.size(); ++other)
       if (other == e || is_at_the_ends(model.geometry, model.effects[other], first, count))
         with_ends.push_back(other);
-    const double from_deg = deg_from_rad(model.geometry.centre_rad(static_cast<int>(first))) -
-                            0.5 * pitch_deg,
-                 over_deg = count * pitch_deg, step_deg = pitch_deg / kSteps;
+    // (an edge through teeth leaves something on these)
+    if (with_ends.size() == 1) continue;
+    const double from_deg = first_deg + (first - 1.5) * pitch_deg, over_deg = count * pitch_deg,
+                 step_deg = pitch_deg / kSteps;
     std::vector<Effect> forms;
     for (int before = -kSteps; before <= kSteps; ++before)
       for (int after = -kSteps; after <= kSteps; ++after)

@@ -14,6 +14,7 @@
 
 #include "trueflank/base/units.h"
 #include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/effects/simple_courses.h"
 #include "trueflank/loop/gear/local/likeliest_products.h"
 #include "trueflank/loop/gear/local/odd_waves.h"
 #include "trueflank/loop/gear/part/one_form.h"
@@ -480,7 +481,8 @@ bool tell_as_walking_waves(PartModel& model) {
 bool tell_as_waves_of_both_flanks(PartModel& model) {
   constexpr double kAlike = 0.02, kNone = 0.25;  // of their length; of a wave
   const EffectFamily *waviness = find_family("unnamed_waviness"),
-                     *marks = find_family("unnamed_marks");
+                     *marks = find_family("unnamed_marks"),
+                     *weighed = find_family("unnamed_crossed_waves");
   struct WaveOfOne {
     std::size_t effect = 0;
     double face = 0.0, length_mm = 0.0;
@@ -491,7 +493,10 @@ bool tell_as_waves_of_both_flanks(PartModel& model) {
   for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
     const auto& [family, flank, shape] = model.effects[e];
     if (flank == FlankChoice::kBoth) continue;
-    if (family == waviness) waves[flank].push_back({e, shape[0], shape[1]});
+    // (waves weighed by nothing are plain ones)
+    if (family == waviness || (family == weighed && shape[2] == gear_effects::FlankCourse::kWhole &&
+                               shape[6] == gear_effects::AroundCourse::kEvery))
+      waves[flank].push_back({e, shape[0], shape[1]});
     if (family != marks || shape[2] != 0.0) continue;
     if (std::abs(shape[0]) < kNone && std::abs(shape[1]) > kNone)
       waves[flank].push_back({e, 1.0, model.geometry.face_width_mm() / std::abs(shape[1])});
@@ -504,9 +509,12 @@ bool tell_as_waves_of_both_flanks(PartModel& model) {
           std::abs(left.length_mm - right.length_mm) > kAlike * left.length_mm)
         continue;
       std::vector<Effect> forms;
-      for (const double length_mm : {left.length_mm, right.length_mm})
+      for (const double times : {0.99, 0.995, 1.0, 1.005, 1.01})
         for (const double opposite : {0.0, 1.0})
-          forms.push_back({waviness, FlankChoice::kBoth, {left.face, length_mm, opposite}});
+          forms.push_back(
+              {waviness,
+               FlankChoice::kBoth,
+               {left.face, 0.5 * times * (left.length_mm + right.length_mm), opposite}});
       if (put_one_form_for(
               model, {std::min(left.effect, right.effect), std::max(left.effect, right.effect)},
               forms))
