@@ -262,6 +262,26 @@ SmoothFit without_memory(const BenchTable& table, const SmoothFit& fit) {
 
 }  // namespace
 
+void deal_hold_out_anew(BenchTable& table) {
+  constexpr std::size_t kParts = 4, kShortest = 3;
+  std::map<int, std::size_t> rows_of_unit, taken;
+  for (const BenchPoint& p : table.points) ++rows_of_unit[p.unit];
+  std::map<std::pair<int, std::size_t>, int> rank;  // of a unit and its part
+  std::vector<std::pair<int, std::size_t>> part;
+  for (const BenchPoint& p : table.points) {
+    const std::size_t length = std::max(kShortest, rows_of_unit[p.unit] / kParts);
+    part.emplace_back(p.unit, taken[p.unit]++ / length);
+    rank[part.back()] = 0;
+  }
+  std::vector<std::pair<int, std::size_t>> keys;
+  for (const auto& [key, unused] : rank) keys.push_back(key);
+  std::mt19937_64 random(20261129);
+  for (std::size_t i = keys.size(); i > 1; --i) std::swap(keys[i - 1], keys[random() % i]);
+  for (std::size_t i = 0; i < keys.size(); ++i) rank[keys[i]] = static_cast<int>(i);
+  for (std::size_t i = 0; i < table.points.size(); ++i)
+    table.points[i].fold = fold_of_rank(rank[part[i]]);
+}
+
 void assign_blocks(BenchTable& table, const SmoothFit& whole_fit) {
   const SmoothFit fit = without_memory(table, whole_fit);
   cut_into_set_points(table);

@@ -79,6 +79,11 @@ void note_history(std::vector<BenchPoint>& points) {
       };
       points[i].way_stepped = stepped(&BenchPoint::load_nm, most_load);
       points[i].speed_way_stepped = stepped(&BenchPoint::speed_rpm, most_speed);
+      constexpr double kSame = 1e-6;  // degrees
+      const double warmer = points[i].temperature_c - points[i - 1].temperature_c;
+      points[i].warmth_stepped = warmer > kSame ? 1 : warmer < -kSame ? -1 : 0;
+      points[i].warmth_kept =
+          points[i].warmth_stepped != 0 ? points[i].warmth_stepped : points[i - 1].warmth_kept;
     }
     // Rows that could not be used were taken too.
     const int step = starts ? 0 : std::max(1, points[i].line - points[i - 1].line);

@@ -37,6 +37,8 @@ struct BenchPoint {
   int way_kept = 0, speed_way_kept = 0;
   /// Which way each went from the row before; 0 where it stood.
   int way_stepped = 0, speed_way_stepped = 0;
+  /// Warmer (1) or colder (-1) than the row before; where it is the same: 0, or as it came to it.
+  int warmth_stepped = 0, warmth_kept = 0;
   /// How far the load and the speed have moved since they turned, of the largest.
   double moved = 0.0, speed_moved = 0.0;
   int row = 0;                 ///< of its file, from 0 on, with the rows that were left out
@@ -115,6 +117,9 @@ struct SmoothFit {
 void measure_extent(BenchTable& table);
 /// Units and folds of points in the order they were taken.
 void assign_blocks(BenchTable& table, const SmoothFit& fit);
+/// Other folds of shorter stretches, a quarter of a unit each: for a hold-out that holds all of
+/// something, which no training row shows.
+void deal_hold_out_anew(BenchTable& table);
 /// @}
 
 }  // namespace trueflank::loop

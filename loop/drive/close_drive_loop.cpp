@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/discovery/distributions.h"
@@ -26,8 +28,38 @@ class DriveReport {
       : selection_(model, std::move(table), options) {}
 
   DriveLoop close() { return report(selection_.run()); }
+  /// The same, or nothing where the hold-out is so far from the rest that it holds all of
+  /// something, or denies what is as good as certain: it holds one end of it.
+  std::optional<DriveLoop> close_if_held_out_is_alike() {
+    const DriveOutcome outcome = selection_.run();
+    constexpr double kAsGoodAsCertain = 100.0;  // chi-square
+    if (selection_.most_denied() > kAsGoodAsCertain || held_out_stands_apart(outcome))
+      return std::nullopt;
+    return report(outcome);
+  }
 
  private:
+  /// True where what the training leaves of the held-out rows is far more than of its own.
+  [[nodiscard]] bool held_out_stands_apart(const DriveOutcome& outcome) const {
+    constexpr double kTimes = 2.0, kSurely = 1e-6;
+    constexpr double kShared = 2.0;  // rows that may hang together are counted by half
+    const DriveContext held = selection_.context();
+    const DriveFit training(held, selection_.value_nm(), outcome.effects, FitRows::kTraining);
+    const Eigen::VectorXd left = selection_.value_nm() - training.explained_nm();
+    std::array<double, 2> square{}, rows{};
+    const auto& points = selection_.table().points;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::size_t of = points[i].fold == 0 ? 1 : 0;
+      const double size = left[static_cast<Eigen::Index>(i)] / points[i].sigma_nm;
+      square[of] += size * size;
+      rows[of] += 1.0;
+    }
+    const double degrees = rows[0] - outcome.size();
+    if (!(degrees > kShared) || !(rows[1] > kShared) || !(square[0] > 0.0)) return false;
+    const double f = (square[1] / rows[1]) / (square[0] / degrees);
+    return f > kTimes && f_tail(f, rows[1] / kShared, degrees / kShared) < kSurely;
+  }
+
   DriveLoop report(const DriveOutcome& outcome) {
     DriveLoop done{.result = {},
                    .model = selection_.model(),
@@ -383,6 +415,8 @@ ResultAll<DriveLoop> close_drive_loop(const DriveModel& model, const BenchData& 
   if (!data.quantities.empty())
     table->notes.push_back(std::to_string(data.quantities.size()) +
                            " single quantities were not used beside the rows");
+  if (auto done = DriveReport(model, *table, options).close_if_held_out_is_alike()) return *done;
+  deal_hold_out_anew(*table);
   return DriveReport(model, std::move(*table), options).close();
 }
 

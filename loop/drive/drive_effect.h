@@ -266,6 +266,8 @@ struct DriveFamily : EffectFacts {
   /// Shapes of what may be all that a bench holds, or all but what has a name, to be found by once
   /// the others are chosen; empty: it is asked otherwise.
   std::function<std::vector<DriveShape>(const DriveContext&)> whole_shapes = {};
+  /// What it must take off more than others to be told as a whole form (chi-square).
+  double dearer = 0.0;
   /// A reading that no loss of the library does in one direction alone.
   bool asked_of_one_direction = false;
   /// False of a shape of which the most stands where nothing was run; empty: none is so.

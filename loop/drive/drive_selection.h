@@ -77,6 +77,8 @@ class DriveSelection {
   }
   /// Effects were taken back.
   [[nodiscard]] bool vetoed() const { return vetoed_; }
+  /// How sure a form was (chi-square) that the hold-out denied; 0: none was.
+  [[nodiscard]] double most_denied() const { return most_denied_; }
   /// False where data that gain power leave no room for this loss.
   [[nodiscard]] bool may_be_there(const DriveFamily& family) const;
   /// The table; nothing else is asked for afterwards.
@@ -187,10 +189,13 @@ class DriveSelection {
     DriveState state;
   };
   void fill_whole_columns();
-  /// True where one was told.
-  bool tell_as_one_whole(DriveOutcome& outcome);
+  /// True where one was told. `pieces_too`: several pieces may also be two forms.
+  bool tell_as_one_whole(DriveOutcome& outcome, bool pieces_too);
   void add_waves_over_the_angle(const std::vector<DriveEffect>& base,
                                 std::vector<WholeForm>& forms) const;
+  /// Of places that leave the same of the rows seen those that are locked away say which it is: on
+  /// which side of an edge they lie.
+  void let_held_out_rows_settle_sides(OneForm& set) const;
   /// True where the hold-out would take some of it back.
   [[nodiscard]] bool is_denied(DriveOutcome outcome);
   /// Two levels far apart, of which every row may have either.
@@ -243,6 +248,7 @@ class DriveSelection {
   WaveSpectra spectra_;
   std::map<std::string, std::set<std::string>> exchangeable_;
   bool vetoed_ = false;  ///< effects were taken back
+  double most_denied_ = 0.0;
   bool losses_beside_gains_ = false;
   WholeColumns whole_;
 };

@@ -31,7 +31,7 @@ const DriveFamily& wave_family() {
 /// Waves of these orders per turn, or of so many to the run, of any phase.
 std::vector<DriveShape> waves_about(const BenchTable& table, double order) {
   constexpr int kPhases = 16, kApart = 8;
-  constexpr double kOfTheClock = 0.15, kFewestRows = 3.0, kFewestTimes = 2.0;
+  constexpr double kOfTheClock = 0.15, kFewestRows = 3.0, kFewestTimes = 2.0, kWarmer = 3.0;
   std::vector<DriveShape> shapes;
   const auto add = [&](double at, double how) {
     for (const double reads : {0.0, 1.0})
@@ -39,11 +39,14 @@ std::vector<DriveShape> waves_about(const BenchTable& table, double order) {
         if (reads == 0.0 || (table.has(true) && table.has(false)))
           shapes.push_back({at, how, reads, static_cast<double>(phase) / kPhases});
   };
+  std::vector<double> sizes{double(drive_effects::kWaveWithLoad), double(drive_effects::kWaveGrows),
+                            double(drive_effects::kWaveWithSpeed)};
+  if (table.has_temperature && table.temperature_span_c > kWarmer)
+    sizes.insert(sizes.end(),
+                 {double(drive_effects::kWaveWithWarmth), double(drive_effects::kWaveWithCold)});
   for (int k = -kApart; k <= kApart; ++k)
     if (const double at = order + 0.125 * k / std::max(1.0, table.turns); at > 0.0)
-      for (const double how :
-           {double(drive_effects::kWaveWithLoad), double(drive_effects::kWaveGrows)})
-        add(at, how);
+      for (const double how : sizes) add(at, how);
   const double times = order * table.turns, rows = static_cast<double>(table.points.size());
   if (times < kFewestTimes || times * kFewestRows > rows) return shapes;
   const double step = std::max(0.125, kOfTheClock * times / 40.0);
@@ -80,7 +83,9 @@ void DriveSelection::tell_waves(DriveOutcome& outcome) {
     // Of every kind the likeliest.
     std::map<std::pair<double, double>, std::pair<double, DriveShape>> likeliest;
     for (DriveShape& shape : waves_about(table_, order)) {
-      if (shape[1] != double(drive_effects::kWaveWithLoad) && !one_course) continue;
+      if (!one_course && (shape[1] == double(drive_effects::kWaveGrows) ||
+                          shape[1] == double(drive_effects::kWaveByRows)))
+        continue;
       const double gain = beside.with({&wave_family(), shape}).gain;
       auto& [most, best] = likeliest[{shape[1], shape[2]}];
       if (gain <= most) continue;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 #include <tuple>
@@ -34,24 +35,42 @@ double cost_of_looks(std::size_t shapes) {
   return 2.0 * std::log(1.0 + 0.25 * static_cast<double>(shapes));
 }
 
+/// Of what falls in steps over its places the best near by.
+DriveEffect nearest_best(const DriveContext& context, const BesideEffects& beside,
+                         DriveEffect form) {
+  double most = beside.with(form).gain;
+  for (int round = 0; round < 2; ++round)
+    for (DriveShape& shape : form.family->all_shapes(context, &form.shape))
+      if (const double gain = beside.with({form.family, shape}).gain; gain > most) {
+        most = gain;
+        form.shape = std::move(shape);
+      }
+  return form;
+}
+
 /// True where most of the rows that the form moves most are moved so: not few of them far off.
 bool most_rows_follow(const DriveContext& context, const Eigen::VectorXd& value,
                       const std::vector<DriveEffect>& effects, std::size_t form) {
-  constexpr double kMuch = 0.5, kLeast = 0.45, kMost = 1.8;
+  constexpr double kMuch = 0.5, kSome = 0.15, kLeast = 0.45, kMost = 1.8;
   constexpr std::size_t kFewest = 5;
   const DriveFit fit(context, value, effects, FitRows::kTraining);
   const Eigen::VectorXd moved = fit.explained_nm(static_cast<int>(form)),
                         left = value - fit.explained_nm() + moved;
   const auto& points = context.table.points;
-  double most = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    most = std::max(most, std::abs(moved[static_cast<Eigen::Index>(i)]) / points[i].sigma_nm);
-  std::vector<double> share;
+  std::vector<std::pair<double, double>> rows;  // how much it is moved, and the share of that
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    if (points[i].fold != 0 && std::abs(moved[row]) / points[i].sigma_nm > kMuch * most)
-      share.push_back(left[row] / moved[row]);
+    if (points[i].fold != 0 && moved[row] != 0.0)
+      rows.emplace_back(std::abs(moved[row]) / points[i].sigma_nm, left[row] / moved[row]);
   }
+  std::sort(rows.begin(), rows.end(), std::greater<>());
+  // (what grows from a place on moves few rows much; what comes again should not)
+  const double some = effects[form].family->shape_of_rest ? kMuch : kSome;
+  std::vector<double> share;
+  for (const auto& [size, of_it] : rows)
+    if (size > kMuch * rows.front().first ||
+        (share.size() < kFewest && size > some * rows.front().first))
+      share.push_back(of_it);
   if (share.size() < kFewest) return false;
   const double middle = nth_smallest(share, share.size() / 2);
   return middle > kLeast && middle < kMost;
@@ -109,8 +128,8 @@ void DriveSelection::tell_as_whole_forms(DriveOutcome& outcome) {
   const bool in_steps = std::any_of(table_.points.begin(), table_.points.end(),
                                     [](const BenchPoint& p) { return p.reading >= 0; });
   if (in_steps || (gains_power() && table_.has(true) && table_.has(false))) return;
-  for (int round = 0; round < 2 && tell_as_one_whole(outcome); ++round) {
-  }
+  for (int round = 0; round < 2; ++round)
+    if (!tell_as_one_whole(outcome, round == 0)) break;
   tell_as_scattered_states(outcome);
 }
 
@@ -126,8 +145,9 @@ DriveSelection::OneForm DriveSelection::as_it_is(const DriveOutcome& outcome) co
   return now;
 }
 
-bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome) {
-  constexpr double kClearly = 20.0, kAsOne = 4.0;  // chi-square
+bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
+  constexpr double kClearly = 20.0, kForBoth = 9.0, kAsOne = 4.0;  // chi-square
+  constexpr int kFarFewer = 2;
   const bool sensors_alone = gains_power() && !losses_beside_gains_;
   const OneForm now = as_it_is(outcome);
   const auto covers = [&](const std::vector<DriveEffect>& effects) {
@@ -137,6 +157,9 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome) {
     others.pop_back();
     return effects.back().columns() > 1 ||
            BesideEffects(here, value_, others, FitRows::kTraining).own_share(effects.back()) > kOwn;
+  };
+  const auto can_show = [&](const DriveEffect& e) {
+    return !e.family->shows || e.family->shows(context(), e.shape);
   };
   std::vector<DriveEffect> plain;
   std::vector<int> plain_from;
@@ -168,19 +191,22 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome) {
     without.erase(without.begin() + static_cast<std::ptrdiff_t>(k));
     bases.insert(without);
   }
+  // Levels that come and go, or several descriptions, may be two forms.
+  constexpr std::ptrdiff_t kPieces = 2;
+  const bool in_pieces =
+      pieces_too &&
+      (std::count_if(outcome.effects.begin(), outcome.effects.end(),
+                     [](const DriveEffect& e) { return !e.family->named; }) >= kPieces ||
+       std::any_of(outcome.effects.begin(), outcome.effects.end(),
+                   [](const DriveEffect& e) { return bool(e.family->shape_of_states); }));
   std::vector<std::pair<OneForm, double>> sets;  // with the cost of looks
   double noise = now.square / std::max(1.0, outcome.rows - now.size);
-  for (const std::vector<int>& kept : bases) {
-    OneForm base;
-    for (const int e : kept) {
-      base.effects.push_back(outcome.effects[static_cast<std::size_t>(e)]);
-      base.from.push_back(e);
-    }
+  const auto try_beside = [&](const OneForm& base, double looks_before, bool alone_too) {
     std::vector<DriveEffect> full = base.effects;
     full.insert(full.end(), plain.begin(), plain.end());
     std::vector<WholeForm> forms = whole_forms(full, true);
     // What is plain may do most of what one form does: then it is seen without.
-    if (kept.empty() || kept == names)
+    if (alone_too)
       for (WholeForm& form : whole_forms(base.effects, false)) forms.push_back(std::move(form));
     for (const auto& [effect, gain, looks] : forms)
       for (std::size_t which = 0; which < (std::size_t{1} << plain.size()); ++which) {
@@ -192,10 +218,35 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome) {
           }
         set.effects.push_back(effect);
         set.from.push_back(-1);
-        if (!fits(set) || !covers(set.effects)) continue;
+        if (!fits(set) || !covers(set.effects) || !can_show(set.effects.back())) continue;
         noise = std::min(noise, set.square / std::max(1.0, outcome.rows - set.size));
-        sets.emplace_back(std::move(set), looks);
+        sets.emplace_back(std::move(set), looks_before + looks);
       }
+    return forms;
+  };
+  for (const std::vector<int>& kept : bases) {
+    OneForm base;
+    for (const int e : kept) {
+      base.effects.push_back(outcome.effects[static_cast<std::size_t>(e)]);
+      base.from.push_back(e);
+    }
+    std::vector<WholeForm> forms = try_beside(base, 0.0, kept.empty() || kept == names);
+    if (kept != names || !in_pieces) continue;
+    // Several pieces may be two forms.
+    constexpr std::size_t kMostFirst = 4;
+    std::stable_sort(forms.begin(), forms.end(),
+                     [](const WholeForm& a, const WholeForm& b) { return a.gain > b.gain; });
+    std::set<std::pair<const DriveFamily*, int>> tried;
+    for (const WholeForm& first : forms) {
+      const DriveFamily& family = *first.effect.family;
+      if (tried.size() == kMostFirst) break;
+      if (!tried.insert({&family, family.kind ? family.kind(first.effect.shape) : 0}).second)
+        continue;
+      OneForm with = base;
+      with.effects.push_back(first.effect);
+      with.from.push_back(-1);
+      try_beside(with, first.looks, false);
+    }
   }
   // The likeliest with their shapes free: each was sought beside all that is plain.
   constexpr std::size_t kMostRefined = 14;
@@ -206,7 +257,8 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome) {
   for (auto& [set, looks] : sets) {
     OneForm refined = set;
     refine_drive_shapes(context(), value_, FitRows::kTraining, refined.effects);
-    if (!fits(refined) || refined.square > set.square) continue;
+    if (!fits(refined) || refined.square > set.square || !can_show(refined.effects.back()))
+      continue;
     noise = std::min(noise, refined.square / std::max(1.0, outcome.rows - refined.size));
     set = std::move(refined);
   }
@@ -218,12 +270,14 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome) {
       found = &set;
     }
   if (found == nullptr) return false;
-  const OneForm& best = *found;
-  bool drops_a_name = false, drops_any = false;
+  OneForm best = *found;
+  let_held_out_rows_settle_sides(best);
+  bool drops_a_name = false, drops_any = false, drops_a_piece = false;
   for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
     if (std::find(best.from.begin(), best.from.end(), static_cast<int>(e)) != best.from.end())
       continue;
     drops_any = true;
+    drops_a_piece = drops_a_piece || !outcome.effects[e].family->named;
     const bool only_mends = is_of_plain(outcome.effects[e]) && best.size < now.size;
     drops_a_name = drops_a_name || (outcome.effects[e].family->named && !only_mends);
   }
@@ -234,15 +288,44 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome) {
     if (best.from[e] < 0) shared = std::max(shared, shared_along(here, value_, best.effects, e));
   const double gain = now.figure(noise) - least -
                       (1.0 - 1.0 / shared) * std::max(0.0, now.square - best.square) / noise;
-  if (gain < (drops_any && !drops_a_name ? kAsOne : kClearly)) return false;
-  if (!most_rows_follow(here, value_, best.effects, form)) return false;
+  // (a name that only mends a piece goes with it where far fewer figures do as much)
+  const bool mends = drops_a_piece && best.size + kFarFewer <= now.size;
+  if (gain < (drops_any && !drops_a_name ? kAsOne : mends ? kForBoth : kClearly)) return false;
+  for (std::size_t e = 0; e < best.effects.size(); ++e)
+    if ((e == form || (best.from[e] < 0 && !best.effects[e].family->named)) &&
+        !most_rows_follow(here, value_, best.effects, e))
+      return false;
   const DriveOutcome before = outcome;
   const DriveState state = state_;
   exchange_as_sure(outcome, best, gain);
   if (!is_denied(outcome) || is_denied(before)) return true;
+  most_denied_ = std::max(most_denied_, gain);
   outcome = before;
   state_ = state;
   return false;
+}
+
+void DriveSelection::let_held_out_rows_settle_sides(OneForm& set) const {
+  constexpr double kAlike = 1e-6;  // of what is left
+  const DriveContext here = context();
+  for (std::size_t e = 0; e < set.effects.size(); ++e) {
+    const DriveFamily& family = *set.effects[e].family;
+    if (set.from[e] >= 0 || !family.falls_in_steps || !family.whole_shapes) continue;
+    std::vector<DriveEffect> others = set.effects;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(e));
+    const BesideEffects seen(here, value_, others, FitRows::kTraining),
+        all(here, value_, others, FitRows::kAll);
+    const double least = seen.with(set.effects[e]).gain - kAlike * seen.square();
+    double most = all.with(set.effects[e]).gain;
+    for (DriveShape& shape : family.all_shapes(here, &set.effects[e].shape)) {
+      const DriveEffect other{&family, shape};
+      if (seen.with(other).gain < least) continue;
+      if (const double gain = all.with(other).gain; gain > most) {
+        most = gain;
+        set.effects[e].shape = std::move(shape);
+      }
+    }
+  }
 }
 
 bool DriveSelection::is_denied(DriveOutcome outcome) {
@@ -289,14 +372,18 @@ void DriveSelection::fill_whole_columns() {
 
 std::vector<DriveSelection::WholeForm> DriveSelection::whole_forms(
     const std::vector<DriveEffect>& base, bool with_places) const {
-  constexpr std::size_t kMostForms = 8;
+  constexpr std::size_t kMostForms = 10;
   constexpr double kLeastGain = 0.1;  // of what the base leaves
   const DriveContext here = context();
   const BesideEffects beside(here, value_, base, FitRows::kTraining);
   std::vector<WholeForm> forms;
-  const auto is_taken = [&](const DriveFamily& f) {
-    return std::any_of(base.begin(), base.end(),
-                       [&](const DriveEffect& e) { return e.family == &f; });
+  const auto is_taken = [&](const DriveEffect& form) {
+    const auto kind = [](const DriveEffect& e) {
+      return e.family->kind ? e.family->kind(e.shape) : 0;
+    };
+    return std::any_of(base.begin(), base.end(), [&](const DriveEffect& e) {
+      return e.family == form.family && kind(e) == kind(form);
+    });
   };
   const Eigen::VectorXf gains = beside.gains(whole_.columns);
   // Of every family and kind the likeliest.
@@ -318,21 +405,13 @@ std::vector<DriveSelection::WholeForm> DriveSelection::whole_forms(
   }
   for (const auto& [kind, best] : likeliest) {
     if (best.most < kLeastGain * beside.square()) continue;
-    WholeForm form{whole_.effects[best.at], best.most, cost_of_looks(best.looks)};
-    const DriveFamily& family = *form.effect.family;
-    for (int round = 0; round < 2 && family.falls_in_steps; ++round)
-      for (DriveShape& shape : family.all_shapes(here, &form.effect.shape))
-        if (const double gain = beside.with({&family, shape}).gain; gain > form.gain) {
-          form.gain = gain;
-          form.effect.shape = std::move(shape);
-          break;
-        }
-    forms.push_back(std::move(form));
+    forms.push_back(
+        {whole_.effects[best.at], best.most, cost_of_looks(best.looks) + kind.first->dearer});
   }
   if (with_places && (!gains_power() || losses_beside_gains_))
     for (const double over : {0.0, 1.0, 2.0})
       for (const DriveEffect& form : likeliest_forms(base, over))
-        if (!form.family->named && !is_taken(*form.family) && form.columns() == 1)
+        if (!form.family->named && !is_taken(form) && form.columns() == 1)
           forms.push_back({form, beside.with(form).gain, cost_of_looks(100)});
   add_waves_over_the_angle(base, forms);
   std::erase_if(forms, [&](const WholeForm& f) { return f.gain < kLeastGain * beside.square(); });
@@ -341,6 +420,13 @@ std::vector<DriveSelection::WholeForm> DriveSelection::whole_forms(
   if (forms.size() > kMostForms) forms.resize(kMostForms);
   std::vector<WholeForm> refined;
   for (WholeForm& form : forms) {
+    const DriveFamily& family = *form.effect.family;
+    if (family.falls_in_steps && family.whole_shapes) {
+      for (DriveShape& kin : family.kin_shapes ? family.kin_shapes(form.effect.shape)
+                                               : std::vector<DriveShape>{form.effect.shape})
+        refined.push_back({nearest_best(here, beside, {&family, kin}), form.gain, form.looks});
+      continue;
+    }
     std::vector<DriveEffect> effects = base;
     effects.push_back(form.effect);
     refine_drive_shapes(here, value_, FitRows::kTraining, effects);

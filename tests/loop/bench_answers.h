@@ -50,4 +50,16 @@ inline bool is_about(const loop::FoundEffect& effect, const std::string& figure,
   return p != nullptr && std::abs(p->value - truth) <= within * std::abs(truth);
 }
 
+/// The one effect there is, if it has this figure within a fifth.
+inline bool is_told_once(const ResultAll<loop::DriveLoop>& closed, const std::string& figure,
+                         double truth) {
+  if (!closed || closed->result.effects.size() != 1) return false;
+  const loop::FoundEffect* effect = with_figure(closed->result, figure);
+  return effect != nullptr && is_about(*effect, figure, truth, 0.2);
+}
+
+inline bool says(const ResultAll<loop::DriveLoop>& closed, const std::string& words) {
+  return closed && told(closed->result).find(words) != std::string::npos;
+}
+
 }  // namespace trueflank::test

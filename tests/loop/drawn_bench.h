@@ -216,4 +216,26 @@ class DrawnBench {
   double forward_loss_ = 0.0, backward_loss_ = 0.0;
 };
 
+/// Rows at random loads and speeds, which seldom come again; one direction, or one after the other
+/// at random.
+inline DrawnBench any_rows(std::uint64_t seed, bool both) {
+  DrawnBench bench(seed, RowOrder::kRuns);
+  const int n = bench.whole(90, 200);
+  std::vector<DrawnRow> rows;
+  double turns = 0.0;
+  for (int i = 0; i < n; ++i) {
+    DrawnRow row;
+    row.forward = !both || bench.between(0.0, 1.0) < 0.5;
+    row.rpm = std::exp(bench.between(std::log(40.0), std::log(2800.0)));
+    row.share = std::exp(bench.between(std::log(0.15), 0.0));
+    row.output_nm = row.share * bench.most_output_nm;
+    row.input_turns = turns += bench.between(0.1, 3.0);
+    row.row = i;
+    row.since_turn = i > 0 && row.forward == rows.back().forward ? rows.back().since_turn + 1 : 0;
+    rows.push_back(row);
+  }
+  bench.rows = std::move(rows);
+  return bench;
+}
+
 }  // namespace trueflank::test

@@ -11,40 +11,6 @@
 namespace trueflank::test {
 namespace {
 
-/// Rows at random loads and speeds, which seldom come again; one direction, or one after the other
-/// at random.
-DrawnBench any_rows(std::uint64_t seed, bool both) {
-  DrawnBench bench(seed, RowOrder::kRuns);
-  const int n = bench.whole(90, 200);
-  std::vector<DrawnRow> rows;
-  double turns = 0.0;
-  for (int i = 0; i < n; ++i) {
-    DrawnRow row;
-    row.forward = !both || bench.between(0.0, 1.0) < 0.5;
-    row.rpm = std::exp(bench.between(std::log(40.0), std::log(2800.0)));
-    row.share = std::exp(bench.between(std::log(0.15), 0.0));
-    row.output_nm = row.share * bench.most_output_nm;
-    row.input_turns = turns += bench.between(0.1, 3.0);
-    row.row = i;
-    row.since_turn = i > 0 && row.forward == rows.back().forward ? rows.back().since_turn + 1 : 0;
-    rows.push_back(row);
-  }
-  bench.rows = std::move(rows);
-  return bench;
-}
-
-/// The one effect there is, if it has this figure within a fifth.
-bool is_told_once(const ResultAll<loop::DriveLoop>& closed, const std::string& figure,
-                  double truth) {
-  if (!closed || closed->result.effects.size() != 1) return false;
-  const loop::FoundEffect* effect = with_figure(closed->result, figure);
-  return effect != nullptr && is_about(*effect, figure, truth, 0.2);
-}
-
-bool says(const ResultAll<loop::DriveLoop>& closed, const std::string& words) {
-  return closed && told(closed->result).find(words) != std::string::npos;
-}
-
 constexpr int kAll = 8, kMost = 7;
 const int kDraws = survey_size(4, kAll);
 

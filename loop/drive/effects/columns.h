@@ -43,7 +43,16 @@ inline constexpr double kMostFriction = 0.4;
 [[nodiscard]] std::vector<DriveShape> where_rows_follow_each_other(const DriveContext& context);
 
 /// What the size of a wave follows, that it comes by the clock, or the one direction that has it.
-enum WaveHow { kWaveWithLoad = 1, kWaveGrows, kWaveByRows, kWaveForward, kWaveBackward };
+enum WaveHow {
+  kWaveWithLoad = 1,
+  kWaveGrows,
+  kWaveByRows,
+  kWaveForward,
+  kWaveBackward,
+  kWaveWithSpeed,
+  kWaveWithWarmth,
+  kWaveWithCold
+};
 
 /// What changes in the course of a run or over a part of a turn.
 enum What { kFlanks, kDrag, kOutputReads, kOutputGain };
@@ -124,6 +133,10 @@ inline constexpr const char* kNoLoss = " (the same sign in both directions: a re
 [[nodiscard]] std::vector<double> levels_run(const DriveContext& context, double over);
 /// Shares of the range at these levels and half way between them.
 [[nodiscard]] std::vector<double> places_between_levels(const DriveContext& context, double over);
+
+/// What forms must take off that are asked beside those that were asked first: they are told once
+/// in a million benches that do not hold them (chi-square).
+inline constexpr double kDearerForms = 12.0;
 
 inline constexpr const char* kOfTheBench = "it is the bench's, not the drive's";
 

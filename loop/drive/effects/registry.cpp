@@ -74,6 +74,17 @@ const std::vector<DriveFamily>& drive_library() {
         unnamed_valley(),
         unnamed_saturating(),
         unnamed_gain_of_range(),
+        unnamed_rows_by_turns(),
+        unnamed_reading_by_turns(),
+        unnamed_block(),
+        unnamed_reading_block(),
+        unnamed_corner(),
+        unnamed_reading_corner(),
+        unnamed_reading_in_steps(),
+        unnamed_fade(),
+        unnamed_log_onset(),
+        unnamed_moving_hump(),
+        unnamed_cusps(),
     };
     for (DriveFamily& family : all) {
       family.shape_values.resize(family.shape_names.size());

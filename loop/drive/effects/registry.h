@@ -82,6 +82,17 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_valley();
 [[nodiscard]] DriveFamily unnamed_saturating();
 [[nodiscard]] DriveFamily unnamed_gain_of_range();
+[[nodiscard]] DriveFamily unnamed_rows_by_turns();
+[[nodiscard]] DriveFamily unnamed_reading_by_turns();
+[[nodiscard]] DriveFamily unnamed_block();
+[[nodiscard]] DriveFamily unnamed_reading_block();
+[[nodiscard]] DriveFamily unnamed_corner();
+[[nodiscard]] DriveFamily unnamed_reading_corner();
+[[nodiscard]] DriveFamily unnamed_reading_in_steps();
+[[nodiscard]] DriveFamily unnamed_fade();
+[[nodiscard]] DriveFamily unnamed_log_onset();
+[[nodiscard]] DriveFamily unnamed_moving_hump();
+[[nodiscard]] DriveFamily unnamed_cusps();
 /// @}
 
 }  // namespace trueflank::loop::drive_effects

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
@@ -14,6 +16,25 @@ namespace {
 
 enum BumpValue : std::size_t { kBumpOrder, kBumpCentre, kBumpHalf };
 
+/// Turns of the drive's members, and places that come several times in a turn of the input.
+std::vector<double> bump_orders(const DriveContext& context) {
+  constexpr double kFewestTurns = 5.0;
+  constexpr int kMostPerTurn = 6;
+  std::vector<double> orders;
+  const auto add = [&](double order) {
+    for (const double known : orders)
+      if (std::abs(known - order) < 1e-6 * order) return;
+    orders.push_back(order);
+  };
+  if (!context.table.has_angle) return orders;
+  for (int k = 1; k <= kMostPerTurn; ++k) add(k);
+  for (const MemberOrder& member : context.model.orders)
+    if (member.order <= kMostPerTurn && member.order * context.table.turns >= kFewestTurns &&
+        context.table.turns > 1.01)
+      add(member.order);
+  return orders;
+}
+
 }  // namespace
 
 DriveFamily unnamed_bump() {
@@ -22,6 +43,7 @@ DriveFamily unnamed_bump() {
   f.shape_names = {"order", "centre", "half_width"};  // the two in turns
   f.preference = 8;
   f.stands_alone = true;
+  f.dearer = kDearerForms;
   f.shape_values = {
       {},
       {.continuous = true, .is_place = true, .reach = 0.03},
@@ -29,6 +51,15 @@ DriveFamily unnamed_bump() {
   // Waves and parts of a turn that were found say where to look.
   f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
   f.turns_per_turn = first_value;
+  f.kind = [](const DriveShape& s) { return s[kBumpOrder] == 1.0 ? 1 : 0; };
+  f.whole_shapes = [](const DriveContext& context) {
+    std::vector<DriveShape> shapes;
+    for (const double order : bump_orders(context))
+      for (const double half : {0.015, 0.03, 0.06, 0.12})
+        for (double centre = 0.0; centre < 1.0; centre += 0.6 * half)
+          shapes.push_back({order, centre, half});
+    return shapes;
+  };
   f.all_shapes = [](const DriveContext& context, const DriveShape* about) {
     std::vector<DriveShape> shapes;
     if (about == nullptr) return shapes;
@@ -53,14 +84,74 @@ DriveFamily unnamed_bump() {
   };
   f.told = [](const DriveContext& context, const DriveShape& s, double amount,
               const std::vector<Parameter>& figures) {
-    return "a short loss once in every turn " + turn_in_words(context.model, s[kBumpOrder]) + ": " +
-           with_interval(figures[3], " N m") + (amount > 0.0 ? " more" : " less") + " at " +
-           with_interval(figures[1], " degrees") + " of it, half of that " +
-           with_interval(figures[2], " degrees") +
+    // (where it is no member's turn it is told by the input's)
+    const double every = 360.0 / s[kBumpOrder],
+                 at = every * (s[kBumpCentre] - std::floor(s[kBumpCentre]));
+    const std::string of_input = s[kBumpOrder] > 1.001
+                                     ? printed(" (%.4g degrees of the input", at) +
+                                           printed(" and every %.4g degrees on)", every)
+                                     : "";
+    return "a short loss once in every turn " + turn_in_words(context.model, s[kBumpOrder]) +
+           of_input + ": " + with_interval(figures[3], " N m") +
+           (amount > 0.0 ? " more" : " less") + " at " + with_interval(figures[1], " degrees") +
+           " of it, half of that " + with_interval(figures[2], " degrees") +
            " to either side (a chip, a damaged tooth, a tight place?)";
   };
   f.words = [](const DriveModel& model, const DriveShape& s, const DriveContext*) {
     return "short, once in every turn " + turn_in_words(model, s[kBumpOrder]);
+  };
+  return f;
+}
+
+DriveFamily unnamed_cusps() {
+  enum CuspValue : std::size_t { kCuspOrder, kCuspPlace };
+  DriveFamily f = without_a_name();
+  f.parameters = {"amount_nm"};
+  f.shape_names = {"order", "place"};
+  f.preference = 8;
+  f.stands_alone = true;
+  f.dearer = kDearerForms;
+  f.shape_values = {{}, {.continuous = true, .is_place = true, .reach = 0.03}};
+  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.whole_shapes = [](const DriveContext& context) {
+    constexpr int kPlaces = 30;
+    std::vector<DriveShape> shapes;
+    for (const double order : bump_orders(context))
+      for (int place = 0; place < kPlaces; ++place)
+        shapes.push_back({order, static_cast<double>(place) / kPlaces});
+    return shapes;
+  };
+  f.all_shapes = [](const DriveContext& context, const DriveShape* about) {
+    std::vector<DriveShape> shapes;
+    if (about == nullptr) return shapes;
+    for (const double step : growing_steps(context, 0.001, 0.06))
+      shapes.push_back({(*about)[kCuspOrder], (*about)[kCuspPlace] + step});
+    return shapes;
+  };
+  f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
+                  double* c) {
+    c[0] =
+        -context.lever(p) *
+        std::abs(std::sin(0.5 * kTwoPi * (s[kCuspOrder] * p.angle_rad / kTwoPi - s[kCuspPlace])));
+  };
+  f.figures = [](const DriveContext&, const DriveShape& s, double amount) {
+    return std::vector<Parameter>{
+        figure_of("amplitude_nm", std::abs(amount)), figure_of("periods_per_turn", s[kCuspOrder]),
+        figure_of("edge_at_deg",
+                  360.0 * (s[kCuspPlace] - std::floor(s[kCuspPlace])) / s[kCuspOrder])};
+  };
+  f.told = [](const DriveContext& context, const DriveShape& s, double amount,
+              const std::vector<Parameter>& figures) {
+    return "a loss at the input in arches over the angle (" +
+           turn_in_words(context.model, s[kCuspOrder]) + "), nothing at the edge between two at " +
+           with_interval(figures[2], " degrees of the input") +
+           (s[kCuspOrder] > 1.001 ? printed(" and every %.4g degrees on", 360.0 / s[kCuspOrder])
+                                  : "") +
+           ": " + with_interval(figures[0], amount > 0.0 ? " N m more" : " N m less") +
+           " half way between (a joint at an angle, what is pushed to either side in turn?)";
+  };
+  f.words = [](const DriveModel& model, const DriveShape& s, const DriveContext*) {
+    return "in arches over the turn " + turn_in_words(model, s[kCuspOrder]);
   };
   return f;
 }

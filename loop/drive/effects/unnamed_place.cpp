@@ -44,6 +44,8 @@ double hump_at(const DriveContext& context, const BenchPoint& p, const DriveShap
                  s[3] == double(kSmooth) ? 0.0 : context.share_of_range(p, s[0]), s);
 }
 
+/// So many levels are counted at most: there may be none.
+constexpr int kManyLevels = 8;
 /// Of a hump and of a step: the direction that it stands in.
 constexpr std::size_t kHumpDirection = 4, kStepDirection = 3;
 
@@ -58,6 +60,13 @@ std::vector<Parameter> with_reading(const DriveContext& context, double which, d
 /// False where what is most of it stands where nothing was run: how high it is there nobody knows.
 bool hump_shows(const DriveContext& context, const DriveShape& s) {
   constexpr double kShown = 0.4;
+  const auto& points = context.table.points;
+  // (where no levels were run its rows say it)
+  if (context.table.levels[static_cast<std::size_t>(s[0])] >= kManyLevels)
+    return std::any_of(points.begin(), points.end(), [&](const BenchPoint& p) {
+      return is_of_direction(p, s[kHumpDirection] == kAsItReads ? 0.0 : s[kHumpDirection]) &&
+             hump_at(context, p, s) > kShown;
+    });
   const std::vector<double> levels = levels_run(context, s[0]);
   return std::any_of(levels.begin(), levels.end(), [&](double level) {
     return hump_of(context, context.coordinate_of(s[0], level), context.share_at(s[0], level), s) >
@@ -212,7 +221,9 @@ std::vector<DriveShape> fine_humps(const DriveContext& context) {
     if (context.table.levels[static_cast<std::size_t>(over)] >= 6)
       for (int k = -31; k <= 31; ++k)
         for (const double width : {0.055, 0.1, 0.18})
-          shapes.push_back({double(over), 0.03 * k, width, double(kSmooth), 0.0});
+          for (const double which : directions_alone(context))
+            if (which == 0.0 || over == 1)  // (a resonance of one direction)
+              shapes.push_back({double(over), 0.03 * k, width, double(kSmooth), which});
   return shapes;
 }
 

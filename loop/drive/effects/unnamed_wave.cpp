@@ -9,17 +9,22 @@
 #include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/effects/registry.h"
 
-// A wave whose size is not the same all over: in proportion to the load, or growing over the run as
-// what works loose does; and a wave by the clock, which the angle only imitates.
+// A wave whose size is not the same all over: in proportion to the load or the speed, with the
+// temperature, or growing over the run as what works loose does; and a wave by the clock, which the
+// angle only imitates.
 namespace trueflank::loop::drive_effects {
 
 namespace {
 
 enum WaveValue : std::size_t { kWaveOrder, kWaveHow, kWaveReads, kWavePhase };
 
-/// What grows or shrinks it: the load, the run, or nothing, over the rows in place of the angle.
+/// What grows or shrinks it: the load, the speed, the temperature, the run, or nothing, over the
+/// rows in place of the angle.
 double size_of_wave(const DriveContext& context, const BenchPoint& p, const DriveShape& s) {
   if (s[kWaveHow] == double(kWaveWithLoad)) return p.load_nm / context.table.most_load_nm;
+  if (s[kWaveHow] == double(kWaveWithSpeed)) return p.speed_rpm / context.table.most_speed_rpm;
+  if (s[kWaveHow] == double(kWaveWithWarmth)) return context.share_of_range(p, 2.0);
+  if (s[kWaveHow] == double(kWaveWithCold)) return 1.0 - context.share_of_range(p, 2.0);
   if (s[kWaveHow] == double(kWaveForward)) return p.forward ? 1.0 : 0.0;
   if (s[kWaveHow] == double(kWaveBackward)) return p.forward ? 0.0 : 1.0;
   return s[kWaveHow] == double(kWaveGrows) ? p.taken : 1.0;
@@ -57,6 +62,12 @@ struct WaveWords {
 WaveWords words_of_size(const DriveShape& s) {
   if (s[kWaveHow] == double(kWaveWithLoad))
     return {", in proportion to the load", " at the largest load"};
+  if (s[kWaveHow] == double(kWaveWithSpeed))
+    return {", in proportion to the speed", " at the highest speed"};
+  if (s[kWaveHow] == double(kWaveWithWarmth))
+    return {", that grows with the temperature from nothing at the lowest", " at the highest"};
+  if (s[kWaveHow] == double(kWaveWithCold))
+    return {", that dies away with the temperature to nothing at the highest", " at the lowest"};
   if (s[kWaveHow] == double(kWaveForward))
     return {" while the input drives", ", and nothing while the output drives"};
   if (s[kWaveHow] == double(kWaveBackward))

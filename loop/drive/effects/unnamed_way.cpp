@@ -9,8 +9,8 @@
 #include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/effects/registry.h"
 
-// What differs between a load or a speed that rises and one that falls: a sensor with hysteresis,
-// oil or grease that follows late.
+// What differs between a load, a speed or a temperature that rises and one that falls: a sensor
+// with hysteresis, oil or grease that follows late.
 namespace trueflank::loop::drive_effects {
 
 namespace {
@@ -25,6 +25,8 @@ constexpr double kLeastWithin = 0.04, kMostWithin = 1.2;
 enum WayTurns { kHalves, kAsItCame, kAsItRises, kAsItFalls, kNothing };
 
 double way_of(const BenchPoint& p, const DriveShape& s) {
+  if (s[kWayOver] == 2.0)
+    return s[kWayTurns] == double(kNothing) ? p.warmth_stepped : p.warmth_kept;
   const bool load = s[kWayOver] == 0.0;
   const int way = load ? p.way : p.speed_way, kept = load ? p.way_kept : p.speed_way_kept;
   switch (static_cast<int>(s[kWayTurns])) {
@@ -57,7 +59,7 @@ bool goes_up_and_down(const DriveContext& context, double over) {
   int turns = 0, before = 0;
   std::array<int, 2> rows{};
   for (const BenchPoint& p : context.table.points) {
-    const int way = over == 0.0 ? p.way : p.speed_way;
+    const int way = over == 0.0 ? p.way : over == 1.0 ? p.speed_way : p.warmth_stepped;
     if (way == 0) continue;
     ++rows[way > 0 ? 1 : 0];
     turns += before != 0 && way != before ? 1 : 0;
@@ -72,6 +74,7 @@ std::vector<double> turns_that_differ(const DriveContext& context, double over, 
   std::vector<std::vector<double>> seen;
   std::vector<double> all{double(kHalves), double(kAsItCame), double(kAsItRises),
                           double(kAsItFalls)};
+  if (over == 2.0) all = {double(kAsItCame)};
   if (that_stand) all.push_back(double(kNothing));
   for (const double how : all) {
     std::vector<double> ways;
@@ -129,12 +132,13 @@ DriveFamily family_of_ways(std::vector<double> of_what) {
   f.stands_alone = true;
   const auto shapes_of = [of_what](const DriveContext& context, bool that_stand) {
     std::vector<DriveShape> shapes;
-    for (const double over : {0.0, 1.0}) {
-      if (!goes_up_and_down(context, over)) continue;
+    for (const double over : {0.0, 1.0, 2.0}) {
+      // (that of a temperature is asked once the others are chosen)
+      if (!goes_up_and_down(context, over) || (over == 2.0 && !that_stand)) continue;
       for (const double turns : turns_that_differ(context, over, that_stand))
         for (const double of : of_what)
           for (const double form : {double(kEven), double(kMiddle)})
-            if (turns == double(kHalves) || form == double(kEven))
+            if ((turns == double(kHalves) && over != 2.0) || form == double(kEven))
               shapes.push_back({over, of, form, turns});
     }
     return shapes;

@@ -494,8 +494,10 @@ bool tell_as_waves_of_both_flanks(PartModel& model) {
     const auto& [family, flank, shape] = model.effects[e];
     if (flank == FlankChoice::kBoth) continue;
     // (waves weighed by nothing are plain ones)
-    if (family == waviness || (family == weighed && shape[2] == gear_effects::FlankCourse::kWhole &&
-                               shape[6] == gear_effects::AroundCourse::kEvery))
+    if (family == waviness ||
+        (family == weighed &&
+         gear_effects::FlankCourse::at(shape, 2).kind == gear_effects::FlankCourse::kWhole &&
+         gear_effects::AroundCourse::at(shape, 6).kind == gear_effects::AroundCourse::kEvery))
       waves[flank].push_back({e, shape[0], shape[1]});
     if (family != marks || shape[2] != 0.0) continue;
     if (std::abs(shape[0]) < kNone && std::abs(shape[1]) > kNone)
