@@ -115,6 +115,27 @@ TEST(ProductOfCourses, GrowsTowardsTheMiddle) {
   }
 }
 
+// Powder pressed from both ends: the radius grows from a neutral zone.
+TEST(WaistOfTheBody, IsOneRadius) {
+  for (unsigned seed = 1; seed <= survey_size(2U, 6U); ++seed) {
+    Draw draw(seed);
+    const MadeGear gear = spur(draw.whole(20, 30));
+    const double um = draw.between(50.0, 80.0), at = draw.between(-0.4, 0.4),
+                 sign = draw.whole(0, 1) == 1 ? 1.0 : -1.0;
+    const Process pressed{
+        .move_um = [&](const MadeGear&, const FlankSpot& s, const Vec3& p) -> Vec3 {
+          const double out = sign * um * std::abs(s.v - at) / (1.0 + std::abs(at)),
+                       radius = std::hypot(p[0], p[1]);
+          return {out * p[0] / radius, out * p[1] / radius, 0.0};
+        }};
+    const auto result = close(gear, scan_of(gear, {pressed}, scanned(6000, 5.0, seed)), true);
+    EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
+    ASSERT_EQ(result.effects.size(), 1U) << list(result);
+    EXPECT_TRUE(tells(result, "on to both sides, by ")) << list(result);
+    EXPECT_NEAR(amplitude(result), um, 0.08 * um) << list(result);
+  }
+}
+
 TEST(ScratchOfOneTooth, IsOneLineAslant) {
   for (unsigned seed = 1; seed <= survey_size(2U, 6U); ++seed) {
     Draw draw(seed);

@@ -56,6 +56,10 @@ double FlankCourse::value(const FlankGeometry& g, double face, double at_mm) con
       return bell(at_mm - stands_at(g, face, mm), half_mm);
     case kBow:
       return across * across;
+    case kVee: {
+      const double from = stands_at(g, face, mm);
+      return std::abs(at_mm - from) / std::max(std::abs(high - from), std::abs(low - from));
+    }
   }
   return 0.0;
 }
@@ -78,6 +82,7 @@ bool FlankCourse::is_of_free_form(const FlankGeometry& g, double face) const {
     case kBand:
       return half_mm > kWide * range;
     case kStep:
+    case kVee:
       return false;
   }
   return false;
@@ -111,7 +116,8 @@ bool is_of_its_kind(const FlankGeometry& g, double face, const FlankCourse& cour
   if (course.kind == FlankCourse::kRise)
     return between(course.mm / range, kShortest, course.towards != 0.0 ? kLongest : kLongestOfBoth);
   const double share = share_at(g, face, course.mm);
-  if (course.kind == FlankCourse::kStep) return between(share, kNearestStep, 1.0 - kNearestStep);
+  if (course.kind == FlankCourse::kStep || course.kind == FlankCourse::kVee)
+    return between(share, kNearestStep, 1.0 - kNearestStep);
   if (course.kind == FlankCourse::kBand)
     return between(share, 0.0, 1.0) && between(course.half_mm / range, kNarrowest, kWidest);
   return course.towards > 0.0 ? between(share, 0.0, 1.0 - kNearestEnd)
@@ -199,6 +205,8 @@ std::string FlankCourse::words(const FlankGeometry& g, double face) const {
     }
     case kBand:
       return "about " + where + ", " + within(g, face, half_mm, "", " to either side");
+    case kVee:
+      return "more and more evenly from " + where + " on to both sides";
     case kBow:
       return std::string("more and more towards ") +
              (face != 0.0 ? "both ends of the face" : "root and tip");
@@ -207,7 +215,7 @@ std::string FlankCourse::words(const FlankGeometry& g, double face) const {
 }
 
 std::vector<std::string> FlankCourse::kind_words() {
-  return {"whole", "slope", "step", "kink", "bend", "rise", "band", "bow"};
+  return {"whole", "slope", "step", "kink", "bend", "rise", "band", "bow", "vee"};
 }
 
 void AroundCourse::put_in(EffectShape& shape, std::size_t first) const {

@@ -13,7 +13,7 @@ namespace trueflank::loop::gear_effects {
 
 /// A course as it stands among the shape values of a form.
 struct FlankCourse {
-  enum Kind { kWhole, kSlope, kStep, kKink, kBend, kRise, kBand, kBow };
+  enum Kind { kWhole, kSlope, kStep, kKink, kBend, kRise, kBand, kBow, kVee };
   static constexpr std::size_t kValues = 4;
 
   Kind kind = kWhole;

@@ -470,7 +470,10 @@ bool tell_as_wider_part(PartModel& model) {
     }
   }
   if (!nameless || !leans) return false;
-  return put_one_form_for(model, these, body_waves(0.0, 1.0, coarse_courses(model.geometry, 1.0)));
+  std::vector<FlankCourse> courses = coarse_courses(model.geometry, 1.0);
+  for (const double share : {0.2, 0.35, 0.5, 0.65, 0.8})  // a waist
+    courses.push_back({FlankCourse::kVee, gear_effects::place_at(model.geometry, 1.0, share)});
+  return put_one_form_for(model, these, body_waves(0.0, 1.0, courses));
 }
 
 }  // namespace
