@@ -310,6 +310,14 @@ std::vector<Told> forms(const loop::FlankGeometry& g) {
        1,
        0,
        0},
+      {"unnamed_sectors",
+       {2, 3, 0, 0, 0, 2},
+       "from tooth 2 on, stands out on both flanks",
+       "from tooth 2 on, lies back",
+       3,
+       1,
+       0,
+       0},
       {"unnamed_comb",
        {4, 2, 0, 0, 0},
        "from tooth 2 on, stands out on both flanks",
@@ -571,7 +579,8 @@ TEST(SignWords, AreSaidOfEveryFormOfOneCoefficient) {
         "unnamed_plane_saw", "unnamed_changing_wave",
         // (play is said by its axis; the words of those of some teeth are those of all)
         "unnamed_wobble", "unnamed_reversal", "unnamed_kink_of_teeth", "unnamed_bend_of_teeth",
-        "unnamed_waviness_of_teeth", "unnamed_dish_of_teeth"};
+        "unnamed_waviness_of_teeth", "unnamed_dish_of_teeth", "unnamed_slanted_ridge_of_teeth",
+        "unnamed_corner_of_teeth", "unnamed_moved_part"};
     EXPECT_TRUE(known.contains(family.id) || kOther.contains(family.id)) << family.id;
   }
   for (const loop::EffectFamily& named : loop::effect_library()) {

@@ -130,7 +130,8 @@ double left_by_simple_forms(const FitsAlong& fits, double most_waves) {
   const Eigen::ArrayXd ones = Eigen::ArrayXd::Ones(s.size());
   double least = fits.left(s.square().matrix(), s.cube().matrix());
   for (double waves = 0.5; waves <= most_waves; waves += 0.1)
-    least = std::min(least, fits.left_by_wave(kTwoPi * waves * s, ones));
+    for (const Eigen::ArrayXd& size : {ones, Eigen::ArrayXd(s), Eigen::ArrayXd(1.0 - s)})
+      least = std::min(least, fits.left_by_wave(kTwoPi * waves * s, size));
   for (const double within : {0.02, 0.04, 0.08, 0.15, 0.3, 0.6})
     least = std::min({least, fits.left((-s / within).exp().matrix()),
                       fits.left(((s - 1.0) / within).exp().matrix())});
@@ -194,6 +195,8 @@ std::optional<LikeliestWave> likeliest_odd_wave(const MeanCourse& course) {
   constexpr std::size_t kFewest = 40;
   constexpr double kValuesOfWave = 5.0, kMostLeft = 0.12, kBetter = 2.0, kLevel = 1e-6;
   constexpr double kClearly = 40.0;  // chi-square
+  // Errors that hang together leave some odd course in the mean of few traces, as large as theirs.
+  constexpr double kAboveErrors = 6.0;
   constexpr double kFewestChanging = 3.0, kFewestDying = 4.0, kWavesWithin = 0.4;
   if (course.um.size() < kFewest) return {};
   const FitsAlong fits(course);
@@ -215,6 +218,8 @@ std::optional<LikeliestWave> likeliest_odd_wave(const MeanCourse& course) {
         ask({.dies = true, .waves = waves, .within = within, .towards = towards});
   const double noise = course.noise;
   if (best.left - noise > kMostLeft * (fits.square() - noise)) return {};
+  const double extent = best.dies ? std::min(1.0, 2.0 * best.within) : 1.0;
+  if (fits.square() - best.left < kAboveErrors * extent * noise) return {};
   const double free = fits.values() - 6.0;
   best.p_value = std::min(
       1.0, asked * f_tail((fits.square() - best.left) / 2.0 / (best.left / free), 2.0, free));
