@@ -28,14 +28,14 @@ class DriveReport {
       : selection_(model, std::move(table), options) {}
 
   DriveLoop close() { return report(selection_.run()); }
-  /// The same, or nothing where the hold-out is so far from the rest that it holds all of
-  /// something, or denies what is as good as certain: it holds one end of it.
-  std::optional<DriveLoop> close_if_held_out_is_alike() {
+  /// The same, and whether the hold-out is so far from the rest that it holds all of something, or
+  /// denies what is as good as certain: it holds one end of it.
+  std::pair<DriveLoop, bool> close_and_doubt_hold_out() {
     const DriveOutcome outcome = selection_.run();
     constexpr double kAsGoodAsCertain = 100.0;  // chi-square
-    if (selection_.most_denied() > kAsGoodAsCertain || held_out_stands_apart(outcome))
-      return std::nullopt;
-    return report(outcome);
+    const bool doubted =
+        selection_.most_denied() > kAsGoodAsCertain || held_out_stands_apart(outcome);
+    return {report(outcome), doubted};
   }
 
  private:
@@ -415,9 +415,14 @@ ResultAll<DriveLoop> close_drive_loop(const DriveModel& model, const BenchData& 
   if (!data.quantities.empty())
     table->notes.push_back(std::to_string(data.quantities.size()) +
                            " single quantities were not used beside the rows");
-  if (auto done = DriveReport(model, *table, options).close_if_held_out_is_alike()) return *done;
+  auto [done, doubted] = DriveReport(model, *table, options).close_and_doubt_hold_out();
+  if (!doubted) return std::move(done);
+  // Another hold-out, and what leaves clearly less of all rows.
+  constexpr double kClearlyLess = 0.9;
   deal_hold_out_anew(*table);
-  return DriveReport(model, std::move(*table), options).close();
+  DriveLoop anew = DriveReport(model, std::move(*table), options).close();
+  const bool less = anew.result.after.rms < kClearlyLess * done.result.after.rms;
+  return less ? std::move(anew) : std::move(done);
 }
 
 DriveLoop close_drive_table(const DriveModel& model, BenchTable table,

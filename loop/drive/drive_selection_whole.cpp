@@ -57,20 +57,29 @@ bool most_rows_follow(const DriveContext& context, const Eigen::VectorXd& value,
   const Eigen::VectorXd moved = fit.explained_nm(static_cast<int>(form)),
                         left = value - fit.explained_nm() + moved;
   const auto& points = context.table.points;
-  std::vector<std::pair<double, double>> rows;  // how much it is moved, and the share of that
+  struct MovedRow {
+    double errors = 0.0, size = 0.0, share = 0.0;  // how far it is moved, and the share of that
+  };
+  std::vector<MovedRow> rows;
+  double largest = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    if (points[i].fold != 0 && moved[row] != 0.0)
-      rows.emplace_back(std::abs(moved[row]) / points[i].sigma_nm, left[row] / moved[row]);
+    if (points[i].fold == 0 || moved[row] == 0.0) continue;
+    const double size = std::abs(moved[row]);
+    rows.push_back({size / points[i].sigma_nm, size, left[row] / moved[row]});
+    largest = std::max(largest, size);
   }
-  std::sort(rows.begin(), rows.end(), std::greater<>());
-  // (what grows from a place on moves few rows much; what comes again should not)
-  const double some = effects[form].family->shape_of_rest ? kMuch : kSome;
+  std::sort(rows.begin(), rows.end(),
+            [](const MovedRow& a, const MovedRow& b) { return a.errors > b.errors; });
+  // (what grows from a place on moves few rows much; what comes again should not, whatever their
+  // errors are)
+  const bool comes_again = static_cast<bool>(effects[form].family->shape_of_rest);
   std::vector<double> share;
-  for (const auto& [size, of_it] : rows)
-    if (size > kMuch * rows.front().first ||
-        (share.size() < kFewest && size > some * rows.front().first))
-      share.push_back(of_it);
+  for (const MovedRow& row : rows)
+    if (row.errors > kMuch * rows.front().errors ||
+        (comes_again ? row.size > kMuch * largest
+                     : share.size() < kFewest && row.errors > kSome * rows.front().errors))
+      share.push_back(row.share);
   if (share.size() < kFewest) return false;
   const double middle = nth_smallest(share, share.size() / 2);
   return middle > kLeast && middle < kMost;
@@ -262,46 +271,53 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
     noise = std::min(noise, refined.square / std::max(1.0, outcome.rows - refined.size));
     set = std::move(refined);
   }
-  const OneForm* found = nullptr;
-  double least = now.figure(noise);
+  std::vector<std::pair<double, const OneForm*>> likeliest;
   for (const auto& [set, looks] : sets)
-    if (const double figure = set.figure(noise) + looks; figure < least) {
-      least = figure;
-      found = &set;
+    if (const double figure = set.figure(noise) + looks; figure < now.figure(noise))
+      likeliest.emplace_back(figure, &set);
+  std::stable_sort(likeliest.begin(), likeliest.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  // Where few rows follow the likeliest, or the hold-out denies it, that of another family may
+  // stand.
+  constexpr std::size_t kMostAsked = 3;
+  std::set<const DriveFamily*> asked;
+  for (const auto& [figure, set] : likeliest) {
+    if (asked.size() == kMostAsked) break;
+    if (!asked.insert(set->effects.back().family).second) continue;
+    OneForm best = *set;
+    let_held_out_rows_settle_sides(best);
+    bool drops_a_name = false, drops_any = false, drops_a_piece = false;
+    for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
+      if (std::find(best.from.begin(), best.from.end(), static_cast<int>(e)) != best.from.end())
+        continue;
+      drops_any = true;
+      drops_a_piece = drops_a_piece || !outcome.effects[e].family->named;
+      const bool only_mends = is_of_plain(outcome.effects[e]) && best.size < now.size;
+      drops_a_name = drops_a_name || (outcome.effects[e].family->named && !only_mends);
     }
-  if (found == nullptr) return false;
-  OneForm best = *found;
-  let_held_out_rows_settle_sides(best);
-  bool drops_a_name = false, drops_any = false, drops_a_piece = false;
-  for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
-    if (std::find(best.from.begin(), best.from.end(), static_cast<int>(e)) != best.from.end())
-      continue;
-    drops_any = true;
-    drops_a_piece = drops_a_piece || !outcome.effects[e].family->named;
-    const bool only_mends = is_of_plain(outcome.effects[e]) && best.size < now.size;
-    drops_a_name = drops_a_name || (outcome.effects[e].family->named && !only_mends);
+    const std::size_t form = best.effects.size() - 1;
+    const DriveContext here = context();
+    double shared = 1.0;
+    for (std::size_t e = 0; e < best.effects.size(); ++e)
+      if (best.from[e] < 0) shared = std::max(shared, shared_along(here, value_, best.effects, e));
+    const double gain = now.figure(noise) - figure -
+                        (1.0 - 1.0 / shared) * std::max(0.0, now.square - best.square) / noise;
+    // (a name that only mends a piece goes with it where far fewer figures do as much)
+    const bool mends = drops_a_piece && best.size + kFarFewer <= now.size;
+    if (gain < (drops_any && !drops_a_name ? kAsOne : mends ? kForBoth : kClearly)) continue;
+    bool follow = true;
+    for (std::size_t e = 0; e < best.effects.size() && follow; ++e)
+      follow = !(e == form || (best.from[e] < 0 && !best.effects[e].family->named)) ||
+               most_rows_follow(here, value_, best.effects, e);
+    if (!follow) continue;
+    const DriveOutcome before = outcome;
+    const DriveState state = state_;
+    exchange_as_sure(outcome, best, gain);
+    if (!is_denied(outcome) || is_denied(before)) return true;
+    most_denied_ = std::max(most_denied_, gain);
+    outcome = before;
+    state_ = state;
   }
-  const std::size_t form = best.effects.size() - 1;
-  const DriveContext here = context();
-  double shared = 1.0;
-  for (std::size_t e = 0; e < best.effects.size(); ++e)
-    if (best.from[e] < 0) shared = std::max(shared, shared_along(here, value_, best.effects, e));
-  const double gain = now.figure(noise) - least -
-                      (1.0 - 1.0 / shared) * std::max(0.0, now.square - best.square) / noise;
-  // (a name that only mends a piece goes with it where far fewer figures do as much)
-  const bool mends = drops_a_piece && best.size + kFarFewer <= now.size;
-  if (gain < (drops_any && !drops_a_name ? kAsOne : mends ? kForBoth : kClearly)) return false;
-  for (std::size_t e = 0; e < best.effects.size(); ++e)
-    if ((e == form || (best.from[e] < 0 && !best.effects[e].family->named)) &&
-        !most_rows_follow(here, value_, best.effects, e))
-      return false;
-  const DriveOutcome before = outcome;
-  const DriveState state = state_;
-  exchange_as_sure(outcome, best, gain);
-  if (!is_denied(outcome) || is_denied(before)) return true;
-  most_denied_ = std::max(most_denied_, gain);
-  outcome = before;
-  state_ = state;
   return false;
 }
 
