@@ -52,7 +52,8 @@ TEST(PlanetaryDyno, GainsPowerBackwardsAndIsNotCalledFriction) {
       EXPECT_THAT((std::vector<std::string>{"torque_scale", "torque_offset"}),
                   testing::Contains(effect.id));
     else
-      EXPECT_THAT(effect.description, testing::HasSubstr("torque is read otherwise"));
+      EXPECT_THAT(effect.description, testing::AnyOf(testing::HasSubstr("torque is read otherwise"),
+                                                     testing::HasSubstr("a reading, no loss")));
   ASSERT_FALSE(r.measure_next.empty());
   EXPECT_THAT(r.measure_next.front(), testing::HasSubstr("without the gearbox"));
   EXPECT_THAT(r.measure_next.front(), testing::HasSubstr("swapped"));
