@@ -136,6 +136,23 @@ TEST(WaistOfTheBody, IsOneRadius) {
   }
 }
 
+// Points moved along the axis, twice per turn: no lobes beside a stretch that take each other back.
+TEST(SaddleOfAHelicalGear, IsOneMoveAlongTheAxisAndHasNoName) {
+  for (unsigned seed = 1; seed <= survey_size(2U, 6U); ++seed) {
+    Draw draw(seed);
+    const MadeGear gear = helical(draw.whole(28, 40), draw.between(18.0, 28.0));
+    const double um = draw.between(40.0, 70.0), phase = draw.between(0.0, 6.28);
+    const Process bent{.move_um = [&](const MadeGear&, const FlankSpot&, const Vec3& p) -> Vec3 {
+      return {0.0, 0.0, um * std::cos(2.0 * std::atan2(p[1], p[0]) - phase)};
+    }};
+    const auto result = close(gear, scan_of(gear, {bent}, scanned(5000, 4.0, seed)), true);
+    ASSERT_EQ(result.effects.size(), 1U) << list(result);
+    EXPECT_TRUE(tells(result, "moved along the axis by their direction, twice per turn"))
+        << list(result);
+    EXPECT_NEAR(amplitude(result), um, 0.06 * um) << list(result);
+  }
+}
+
 TEST(ScratchOfOneTooth, IsOneLineAslant) {
   for (unsigned seed = 1; seed <= survey_size(2U, 6U); ++seed) {
     Draw draw(seed);

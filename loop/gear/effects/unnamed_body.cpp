@@ -39,6 +39,9 @@ double worth_of_radius(const FlankGeometry& g, const Place& p) {
   return normal_part(g, p, p.polar_direction[0], p.polar_direction[1]);
 }
 
+/// How a wave of the body moves its points.
+enum BodyMoves { kAlongNormal, kOutwards, kAlongAxis };
+
 /// So many bells, or what `ends` 1, about directions that are evenly spaced: 1 in the middle of
 /// one.
 double bells_towards(const Place& p, double number, double at_deg, double half_deg, double ends) {
@@ -101,10 +104,11 @@ void add_keys_of_course(const std::string& along, EffectFamily& f) {
 }  // namespace
 
 /// A body that is out of round by so many waves a turn, along a part of its height or all of it, or
-/// wider there (none): outwards (`radial` 1), or all walls along their normals. Oval at one end
-/// from hardening, three lobes where jaws grip, a swelling over a press fit, walls that a light
-/// made thicker on one side. The amplitudes are of the radius or along the normal, where the course
-/// is most. Told in place of what goes around the gear in waves of that order, or over the face
+/// wider there (none): outwards (`radial` 1), all walls along their normals, or (2) around the
+/// gear, as sections of a helical ring that is bent like a saddle are. Oval at one end from
+/// hardening, three lobes where jaws grip, a swelling over a press fit, walls that a light made
+/// thicker on one side. The amplitudes are of the radius or along the normal, where the course is
+/// most. Told in place of what goes around the gear in waves of that order, or over the face
 /// (part/body_forms.cpp), and no candidate of its own.
 EffectFamily unnamed_body_wave() {
   EffectFamily f = described("unnamed_body_wave", {"order", "radial", "face_course", "face_mm",
@@ -112,9 +116,12 @@ EffectFamily unnamed_body_wave() {
   f.columns = [](const EffectShape& shape) { return shape[0] == 0.0 ? 1 : 2; };
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     const bool on_flank = p.surface == Surface::kFlank;
-    const double size = on_flank ? (shape[1] == 0.0 ? 1.0 : worth_of_radius(g, p)) *
-                                       FlankCourse::at(shape, kFaceOfWave).value(g, 1.0, p.z_mm)
-                                 : 0.0;
+    const double worth = !on_flank                          ? 0.0
+                         : shape[1] == double(kAlongNormal) ? 1.0
+                         : shape[1] == double(kOutwards)    ? worth_of_radius(g, p)
+                                                            : g.normal_z(p);
+    const double size =
+        on_flank ? worth * FlankCourse::at(shape, kFaceOfWave).value(g, 1.0, p.z_mm) : 0.0;
     const double angle = shape[0] * p.polar_rad;
     c[0] = size * std::cos(angle);
     if (shape[0] != 0.0) c[1] = size * std::sin(angle);
@@ -145,7 +152,8 @@ EffectFamily unnamed_body_wave() {
   f.values_sought = [](const EffectShape& shape) {
     return FlankCourse::at(shape, kFaceOfWave).values_sought();
   };
-  f.term_keys = {{"order"}, {"moved", TermKey::Kind::kWord, {"along_normal", "outwards"}}};
+  f.term_keys = {{"order"},
+                 {"moved", TermKey::Kind::kWord, {"along_normal", "outwards", "along_axis"}}};
   add_keys_of_course("face", f);
   f.words = [](const ToldForm& told) {
     const EffectShape& shape = told.shape;
@@ -159,6 +167,14 @@ EffectFamily unnamed_body_wave() {
              (sign == 0 ? "" : printed(", by %.3g um of radius", std::abs(told.amounts[0]))) +
              ", as over a press fit or a core";
     }
+    if (shape[1] == double(kAlongAxis))
+      return "points are moved along the axis by their direction, " + times_per_turn(shape[0]) +
+             where +
+             (std::isnan(direction_rad) ? ""
+                                        : printed(", by %.3g um at most, upwards",
+                                                  std::hypot(told.amounts[0], told.amounts[1])) +
+                                              first_at(direction_rad, shape[0])) +
+             ", as of a ring that is bent like a saddle";
     std::string text = shape[1] == 0.0 ? "the walls stand out and lie back by their direction, "
                                        : "the gear is out of round ";
     text += times_per_turn(shape[0]) + where;

@@ -494,8 +494,13 @@ bool tell_as_body_wave(PartModel& model) {
     if (order > 1.0 && tell_as_wave_of(model, of_order[order],
                                        body_waves(order, 1.0, coarse_courses(model.geometry, 1.0))))
       return true;
+  const bool is_helical = model.geometry.normal_z(model.geometry.on_flank(
+                              1, 1, model.geometry.root_form_roll_mm(), 0.0)) != 0.0;
   for (const auto& [order, all] : of_order)
-    if (all.size() > 1 && put_one_form_for(model, all, body_waves(order, 0.0, {{}}))) return true;
+    for (const double moves : {0.0, 2.0})  // along the normals, along the axis
+      if (all.size() > 1 && (moves == 0.0 || is_helical) &&
+          put_one_form_for(model, all, body_waves(order, moves, {{}})))
+        return true;
   return tell_as_wider_part(model);
 }
 
