@@ -421,8 +421,14 @@ ResultAll<DriveLoop> close_drive_loop(const DriveModel& model, const BenchData& 
   constexpr double kClearlyLess = 0.9;
   deal_hold_out_anew(*table);
   DriveLoop anew = DriveReport(model, std::move(*table), options).close();
-  const bool less = anew.result.after.rms < kClearlyLess * done.result.after.rms;
-  return less ? std::move(anew) : std::move(done);
+  // (states of single rows follow a few wild ones as well)
+  const auto tells_states = [](const DriveLoop& loop) {
+    return std::any_of(loop.effects.begin(), loop.effects.end(),
+                       [](const DriveEffect& e) { return bool(e.family->shape_of_states); });
+  };
+  const bool less = anew.result.after.rms < kClearlyLess * done.result.after.rms,
+             by_states = !done.effects.empty() && tells_states(anew) && !tells_states(done);
+  return less && !by_states ? std::move(anew) : std::move(done);
 }
 
 DriveLoop close_drive_table(const DriveModel& model, BenchTable table,
