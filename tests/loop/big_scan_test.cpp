@@ -8,8 +8,8 @@
 
 #include "tests/loop/made_gears.h"
 #include "trueflank/loop/gear/finite_displacement.h"
+#include "trueflank/loop/gear/fit/plain_rms.h"
 #include "trueflank/loop/gear/part/choice.h"
-#include "trueflank/loop/gear/plain_rms.h"
 #include "trueflank/loop/gear/table/rows_by_class.h"
 #include "trueflank/loop/gear/table/shared_table.h"
 #include "trueflank/loop/measured/read_measurement.h"

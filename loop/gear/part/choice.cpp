@@ -7,10 +7,10 @@
 #include "trueflank/loop/discovery/kept_sums.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/finite_displacement.h"
+#include "trueflank/loop/gear/fit/plain_rms.h"
 #include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/forms_of_teeth.h"
 #include "trueflank/loop/gear/part/single_teeth.h"
-#include "trueflank/loop/gear/plain_rms.h"
 #include "trueflank/loop/gear/shape_refinement.h"
 
 namespace trueflank::loop {

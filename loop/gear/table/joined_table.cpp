@@ -13,7 +13,8 @@ Observations joined_table(const std::vector<const Observations*>& tables) {
                             table->pose_is_free.end());
     all.points_mm.insert(all.points_mm.end(), table->points_mm.begin(), table->points_mm.end());
     all.outliers += table->outliers;
-    if (table->size_degrees > 0 && (all.size_degrees == 0 || table->size_degrees < all.size_degrees))
+    if (table->size_degrees > 0 &&
+        (all.size_degrees == 0 || table->size_degrees < all.size_degrees))
       all.size_degrees = table->size_degrees;
     all.is_displaced = all.is_displaced || table->is_displaced;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/plain_rms.h"
+#include "trueflank/loop/gear/fit/plain_rms.h"
 
 #include <algorithm>
 #include <cmath>
