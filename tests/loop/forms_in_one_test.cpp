@@ -39,6 +39,13 @@ double amplitude(const loop::LoopResult& result) {
   return terms.empty() ? 0.0 : terms.front().amplitude();
 }
 
+/// One effect, of this size within a share of it, and nothing is left.
+void expect_one_of_size(const loop::LoopResult& result, double um, double within) {
+  EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
+  ASSERT_EQ(result.effects.size(), 1U) << list(result);
+  EXPECT_NEAR(amplitude(result), um, within * um) << list(result);
+}
+
 TEST(FormsAcrossTraces, AHollowThatGrowsTowardsAnEndIsNoWearOfItsMean) {
   for (unsigned seed = 1; seed <= survey_size(3U, 8U); ++seed) {
     Draw draw(seed);
@@ -53,13 +60,11 @@ TEST(FormsAcrossTraces, AHollowThatGrowsTowardsAnEndIsNoWearOfItsMean) {
     options.helix = false;
     options.profiles_at = {-0.7, 0.0, 0.7};
     const auto result = close(gear, inspection_of(gear, {made}, options));
-    EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
-    ASSERT_EQ(result.effects.size(), 1U) << list(result);
+    expect_one_of_size(result, um, 0.12);
     EXPECT_FALSE(has_name(result)) << list(result);
     EXPECT_TRUE(tells(result, upper ? "on towards the upper end: there the flanks lie back"
                                     : "on towards the lower end: there the flanks lie back"))
         << list(result);
-    EXPECT_NEAR(amplitude(result), um, 0.12 * um) << list(result);
   }
 }
 
@@ -89,10 +94,8 @@ TEST(WavesOfBothFlanks, OppositeOnesAreOneWave) {
       return s.side * um * std::cos(kPi * waves * s.v + phase);
     });
     const auto result = close(gear, scan_of(gear, {made}, scanned(6000, 4.0, seed)), true);
-    EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
-    ASSERT_EQ(result.effects.size(), 1U) << list(result);
+    expect_one_of_size(result, um, 0.08);
     EXPECT_TRUE(tells(result, "opposite on the two flanks")) << list(result);
-    EXPECT_NEAR(amplitude(result), um, 0.08 * um) << list(result);
   }
 }
 
@@ -105,13 +108,11 @@ TEST(ProductOfCourses, GrowsTowardsTheMiddle) {
       return um * 0.5 * (1.0 + s.u) * (1.0 - s.v * s.v);
     });
     const auto result = close(gear, scan_of(gear, {made}, scanned(6400, 5.0, seed)), true);
-    EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
-    ASSERT_EQ(result.effects.size(), 1U) << list(result);
+    expect_one_of_size(result, um, 0.1);
     EXPECT_TRUE(tells(result,
                       "an excess of material grows towards the tip evenly, and that the "
                       "more, towards the middle of the face"))
         << list(result);
-    EXPECT_NEAR(amplitude(result), um, 0.1 * um) << list(result);
   }
 }
 
@@ -129,10 +130,8 @@ TEST(WaistOfTheBody, IsOneRadius) {
           return {out * p[0] / radius, out * p[1] / radius, 0.0};
         }};
     const auto result = close(gear, scan_of(gear, {pressed}, scanned(6000, 5.0, seed)), true);
-    EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
-    ASSERT_EQ(result.effects.size(), 1U) << list(result);
+    expect_one_of_size(result, um, 0.08);
     EXPECT_TRUE(tells(result, "on to both sides, by ")) << list(result);
-    EXPECT_NEAR(amplitude(result), um, 0.08 * um) << list(result);
   }
 }
 
@@ -164,12 +163,10 @@ TEST(ScratchOfOneTooth, IsOneLineAslant) {
       return s.tooth == tooth && s.side == side ? sign * um * bell(s.u - slope * s.v, 0.18) : 0.0;
     });
     const auto result = close(gear, scan_of(gear, {made}, scanned(7000, 4.0, seed)), true);
-    EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
-    ASSERT_EQ(result.effects.size(), 1U) << list(result);
+    expect_one_of_size(result, um, 0.15);
     EXPECT_TRUE(tells(result, "on tooth " + std::to_string(tooth) + " alone, a " +
                                   (sign > 0.0 ? "ridge" : "groove") + " in a line aslant"))
         << list(result);
-    EXPECT_NEAR(amplitude(result), um, 0.15 * um) << list(result);
   }
 }
 
@@ -206,11 +203,9 @@ TEST(BlocksAroundTheGear, AreSectorsThatComeAgain) {
     options.profile = options.helix = false;
     options.index = true;
     const auto result = close(gear, inspection_of(gear, {made}, options));
-    EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
-    ASSERT_EQ(result.effects.size(), 1U) << list(result);
+    expect_one_of_size(result, um, 0.1);
     EXPECT_TRUE(tells(result, "each of " + std::to_string(number) + " sectors of "))
         << list(result);
-    EXPECT_NEAR(amplitude(result), um, 0.1 * um) << list(result);
   }
 }
 
@@ -228,10 +223,8 @@ TEST(ViewsOfAScan, ThatDoNotMeetAreOnePartWhateverTeethTheEdgeRunsThrough) {
       return {on * std::cos(towards), on * std::sin(towards), 0.0};
     }};
     const auto result = close(gear, scan_of(gear, {shifted}, scanned(6000, 4.0, seed)), true);
-    EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
-    ASSERT_EQ(result.effects.size(), 1U) << list(result);
+    expect_one_of_size(result, um, 0.05);
     EXPECT_TRUE(tells(result, "all points from ")) << list(result);
-    EXPECT_NEAR(amplitude(result), um, 0.05 * um) << list(result);
   }
 }
 

@@ -38,8 +38,7 @@ std::array<bool, 2> are_traced_apart(const PartModel& model) {
 std::vector<Effect> growing_courses(const FlankGeometry& geometry, int along, FlankChoice flank) {
   const auto other = static_cast<double>(1 - along);
   std::vector<Effect> forms;
-  for (const FlankCourse& course : gear_effects::courses_over(geometry, along)) {
-    if (course.kind == FlankCourse::kWhole) continue;
+  for (const FlankCourse& course : gear_effects::courses_over(geometry, along))
     for (const double towards : {-1.0, 1.0}) {
       const FlankCourse growth{FlankCourse::kKink,
                                gear_effects::place_at(geometry, other, towards > 0.0 ? 0.0 : 1.0),
@@ -49,7 +48,6 @@ std::vector<Effect> growing_courses(const FlankGeometry& geometry, int along, Fl
       growth.put_in(shape, along == 0 ? FlankCourse::kValues : 0);
       forms.push_back({find_family("unnamed_crossed"), flank, std::move(shape)});
     }
-  }
   return forms;
 }
 

@@ -439,14 +439,12 @@ std::vector<std::vector<std::size_t>> all_pairs_and_each(const std::vector<std::
   return sets;
 }
 
-/// An S over all of the profile (0) or the face (1).
 Effect s_over(int face, FlankChoice flank) {
   Effect s_shape = slope_over(face, flank);
   for (const std::size_t along : {0, 1}) s_shape.shape[along] *= 3.0;
   return s_shape;
 }
 
-/// Forms along the profile (0) or the face (1), and an S.
 std::vector<Effect> forms_and_s_along(const FlankGeometry& geometry, int face, FlankChoice flank) {
   std::vector<Effect> forms = forms_along(geometry, face, flank, true);
   forms.push_back(s_over(face, flank));
