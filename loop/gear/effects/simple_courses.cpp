@@ -259,6 +259,8 @@ double AroundCourse::value(const FlankGeometry& g, int tooth) const {
     }
     case kWave:
       return std::cos(kPi * off / half);
+    case kComesAndGoes:
+      return 0.5 * (1.0 + std::cos(kPi * off / half));
     case kEvery:
     case kComb:
       break;
@@ -293,10 +295,11 @@ std::vector<AroundCourse> AroundCourse::beside(const FlankGeometry& g) const {
     }
     return courses;
   }
-  const double scale = kind == kWave ? half_deg / 180.0 : 1.0;
+  const bool wave = kind == kWave || kind == kComesAndGoes;
+  const double scale = wave ? half_deg / 180.0 : 1.0;
   for (const double off : {-20.0, -7.0, -2.0, -0.7, 0.7, 2.0, 7.0, 20.0})
     add({kind, towards_deg + scale * off, half_deg});
-  if (kind == kWave) return courses;
+  if (wave) return courses;
   if (kind == kBell) add({kHalf, towards_deg, 0.0});
   if (kind == kBell)
     for (const double times : {0.7, 0.85, 0.95, 1.05, 1.18, 1.43})
@@ -337,13 +340,15 @@ std::string AroundCourse::words(const FlankGeometry& g) const {
              (kind == kRamp ? "more and more" : "less and less") +
              " from tooth to tooth, once around";
     }
+    case kComesAndGoes:
     case kWave: {
       const int order = static_cast<int>(std::lround(180.0 / half_deg));
-      return (order == 1   ? std::string("once")
+      return std::string(kind == kWave ? "" : "coming and going ") +
+             (order == 1   ? std::string("once")
               : order == 2 ? std::string("twice")
                            : printed("%d times", order)) +
              " per turn, most " + printed("at %.0f deg", std::fmod(turned, 360.0 / order)) +
-             (order > 1 ? " first" : "");
+             (order > 1 ? " first" : "") + (kind == kWave ? "" : ", nothing between");
     }
     case kComb: {
       const auto [every, first] = teeth_of_comb(g);
@@ -354,7 +359,7 @@ std::string AroundCourse::words(const FlankGeometry& g) const {
 }
 
 std::vector<std::string> AroundCourse::kind_words() {
-  return {"half", "bell", "sector", "ramp", "wave", "every", "comb", "fade"};
+  return {"half", "bell", "sector", "ramp", "wave", "every", "comb", "fade", "comes_and_goes"};
 }
 
 std::vector<AroundCourse> courses_around(const FlankGeometry& g) {

@@ -52,13 +52,13 @@ struct AroundCourse {
   /// A cosine on one half and nothing on the other; a bell; some teeth and no others; from nothing
   /// at a tooth evenly to all before it comes around; waves; the same on every tooth; one tooth in
   /// so many, counted from the first one of the gear on; from all at a tooth evenly to nothing
-  /// before it comes around.
-  enum Kind { kHalf, kBell, kSector, kRamp, kWave, kEvery, kComb, kFade };
+  /// before it comes around; in a wave between nothing and all.
+  enum Kind { kHalf, kBell, kSector, kRamp, kWave, kEvery, kComb, kFade, kComesAndGoes };
   static constexpr std::size_t kValues = 3;
 
   Kind kind = kHalf;
   double towards_deg = 0.0;  ///< where it is most, or begins (kRamp, kFade, kComb)
-  double half_deg = 0.0;     ///< half its width (kBell, kSector) or period (kWave, kComb)
+  double half_deg = 0.0;     ///< half its width (kBell, kSector) or period (the waves, kComb)
 
   /// One tooth in so many, from one on.
   [[nodiscard]] static AroundCourse comb(const FlankGeometry& geometry, int every, int first);
@@ -73,7 +73,8 @@ struct AroundCourse {
   /// A mean and waves, as the free form has them; a wide bell is nearly that.
   [[nodiscard]] bool is_of_free_form() const {
     constexpr double kWide_deg = 75.0;
-    return kind == kWave || kind == kEvery || (kind == kBell && half_deg > kWide_deg);
+    return kind == kWave || kind == kComesAndGoes || kind == kEvery ||
+           (kind == kBell && half_deg > kWide_deg);
   }
   [[nodiscard]] int values_sought() const {
     return kind == kEvery ? 0 : kind == kBell || kind == kSector || kind == kComb ? 2 : 1;

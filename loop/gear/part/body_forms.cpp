@@ -391,12 +391,17 @@ bool tell_as_places_around(PartModel& model, const std::vector<SideBySide>& runs
       return std::remainder(model.effects[e].order(), number) == 0.0;
     };
   };
+  // (a wave and its mean, along the face: a squared cosine)
+  const auto has_mean = [&](int number) {
+    return along.face && !alike.empty() && largest == double(number);
+  };
   const int z = model.geometry.teeth();
   std::set<int> numbers;
   if (is_evenly_spaced(runs, z)) numbers.insert(static_cast<int>(runs.size()));
   for (int number = 2; number <= kMostSwellings; ++number)
     if (largest > 0.0 && std::remainder(largest, number) == 0.0 &&
-        std::count_if(waves.begin(), waves.end(), is_of(number)) >= std::ptrdiff_t{kFewest})
+        std::count_if(waves.begin(), waves.end(), is_of(number)) + (has_mean(number) ? 1 : 0) >=
+            std::ptrdiff_t{kFewest})
       numbers.insert(number);
   const double pitch_deg = 360.0 / z;
   for (const int number : numbers) {

@@ -50,7 +50,7 @@ std::vector<Effect> strips(const FlankGeometry& geometry, double face, FlankChoi
 
 std::vector<Effect> forms_along(const FlankGeometry& geometry, double face, FlankChoice flank,
                                 bool bands) {
-  constexpr double kFirst = 0.1, kStep = 0.1, kNearBothEnds = 0.65;
+  constexpr double kFirst = 0.1, kStep = 0.1, kNearBothEnds = 0.65, kRoof = 0.25;
   const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
   const double range_mm = face != 0.0 ? geometry.face_width_mm() : std::abs(high - low);
   std::vector<Effect> forms;
@@ -65,6 +65,9 @@ std::vector<Effect> forms_along(const FlankGeometry& geometry, double face, Flan
         forms.push_back({find_family(family), flank, {face, at, end}});
     if (share > kNearBothEnds)
       forms.push_back({find_family("unnamed_bend"), flank, {face, at, 0.0}});
+    // (a roof; one that leans far is a kink)
+    if (bands && std::abs(share - 0.5) < kRoof)
+      forms.push_back({find_family("unnamed_kink"), flank, {face, at, 0.0}});
     if (bands)
       for (const double width : {0.1, 0.2, 0.35})
         forms.push_back({find_family("unnamed_band"), flank, {face, at, width * range_mm}});
