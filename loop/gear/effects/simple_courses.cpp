@@ -60,12 +60,15 @@ double FlankCourse::value(const FlankGeometry& g, double face, double at_mm) con
       const double from = stands_at(g, face, mm);
       return std::abs(at_mm - from) / std::max(std::abs(high - from), std::abs(low - from));
     }
+    case kSwells:
+      return 0.5 * (1.0 + std::cos(kPi * (at_mm - stands_at(g, face, mm)) / half_mm));
   }
   return 0.0;
 }
 
 bool FlankCourse::is_of_free_form(const FlankGeometry& g, double face) const {
-  constexpr double kNearlyAll = 0.35, kLong = 0.25, kLongOfBoth = 0.12, kWide = 0.25;
+  constexpr double kNearlyAll = 0.35, kLong = 0.25, kLongOfBoth = 0.12, kWide = 0.25,
+                   kLongSwell = 0.4;
   const double range = std::abs(range_mm(g, face));
   switch (kind) {
     case kWhole:
@@ -81,6 +84,8 @@ bool FlankCourse::is_of_free_form(const FlankGeometry& g, double face) const {
       return mm > (towards != 0.0 ? kLong : kLongOfBoth) * range;
     case kBand:
       return half_mm > kWide * range;
+    case kSwells:
+      return half_mm > kLongSwell * range;
     case kStep:
     case kVee:
       return false;
@@ -95,6 +100,7 @@ int FlankCourse::values_sought() const {
     case kBow:
       return 0;
     case kBand:
+    case kSwells:
       return 2;
     case kStep:
       return half_mm > 0.0 ? 2 : 1;
@@ -116,6 +122,8 @@ bool is_of_its_kind(const FlankGeometry& g, double face, const FlankCourse& cour
   if (course.kind == FlankCourse::kRise)
     return between(course.mm / range, kShortest, course.towards != 0.0 ? kLongest : kLongestOfBoth);
   const double share = share_at(g, face, course.mm);
+  if (course.kind == FlankCourse::kSwells)
+    return between(share, 0.0, 1.0) && between(course.half_mm / range, kNarrowest, kWidest);
   if (course.kind == FlankCourse::kStep || course.kind == FlankCourse::kVee)
     return between(share, kNearestStep, 1.0 - kNearestStep);
   if (course.kind == FlankCourse::kBand)
@@ -146,6 +154,15 @@ std::vector<FlankCourse> FlankCourse::beside(const FlankGeometry& g, double face
     return courses;
   }
   const double share = share_at(g, face, mm);
+  if (own == kSwells) {
+    for (const double off : {0.3, 0.1, 0.03, 0.01})
+      for (const double sign : {-1.0, 1.0}) {
+        const double moved = std::clamp(share + sign * off * half_mm / range, 0.0, 1.0);
+        add({kind, place_at(g, face, moved), towards, half_mm});
+        add({kind, mm, towards, (1.0 + 0.3 * sign * off) * half_mm});
+      }
+    return courses;
+  }
   for (const double off : {0.05, 0.02, 0.01, 0.005, 0.002, 0.0007})
     for (const double sign : {-1.0, 1.0}) {
       const double moved = std::clamp(share + sign * off, 0.0, 1.0);
@@ -205,6 +222,8 @@ std::string FlankCourse::words(const FlankGeometry& g, double face) const {
     }
     case kBand:
       return "about " + where + ", " + within(g, face, half_mm, "", " to either side");
+    case kSwells:
+      return "coming and going, " + within(g, face, 2.0 * half_mm, "every ", ", most ") + where;
     case kVee:
       return "more and more evenly from " + where + " on to both sides";
     case kBow:
@@ -215,7 +234,7 @@ std::string FlankCourse::words(const FlankGeometry& g, double face) const {
 }
 
 std::vector<std::string> FlankCourse::kind_words() {
-  return {"whole", "slope", "step", "kink", "bend", "rise", "band", "bow", "vee"};
+  return {"whole", "slope", "step", "kink", "bend", "rise", "band", "bow", "vee", "swells"};
 }
 
 void AroundCourse::put_in(EffectShape& shape, std::size_t first) const {

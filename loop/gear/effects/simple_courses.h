@@ -13,13 +13,14 @@ namespace trueflank::loop::gear_effects {
 
 /// A course as it stands among the shape values of a form.
 struct FlankCourse {
-  enum Kind { kWhole, kSlope, kStep, kKink, kBend, kRise, kBand, kBow, kVee };
+  enum Kind { kWhole, kSlope, kStep, kKink, kBend, kRise, kBand, kBow, kVee, kSwells };
   static constexpr std::size_t kValues = 4;
 
   Kind kind = kWhole;
   double mm = 0.0;  ///< its place (over the profile a diameter); kRise: within what it dies away
   double towards = 0.0;  ///< -1 root or lower end, 1 tip or upper end; 0: both (kRise)
-  double half_mm = 0.0;  ///< half its width (kBand), or over what it rises to either side (kStep)
+  double half_mm = 0.0;  ///< half its width (kBand) or period (kSwells: a wave between
+                         ///< nothing and all), or over what it rises to either side (kStep)
 
   [[nodiscard]] static FlankCourse at(const EffectShape& shape, std::size_t first) {
     return {static_cast<Kind>(static_cast<int>(shape[first])), shape[first + 1], shape[first + 2],

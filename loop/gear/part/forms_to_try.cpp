@@ -301,6 +301,16 @@ void add_of_some_teeth(int z, const CourseOverFlanks& course, FlankChoice flank,
   sets.push_back(std::move(stairs));
 }
 
+/// What slips over some teeth, and stays so up to the last tooth of the gear, to start from.
+std::vector<Effect> slips(int teeth, FlankChoice flank, double opposite) {
+  constexpr double kFewest = 2.0, kStays = 3.0;
+  std::vector<Effect> forms;
+  for (double over = kFewest; over < 0.6 * teeth; over = std::ceil(1.4 * over))
+    for (double first = 2.0; first + over + kStays <= teeth + 1.0; first += 1.0)
+      forms.push_back({find_family("unnamed_slip"), flank, {first, over, 1.0, opposite}});
+  return forms;
+}
+
 /// Drifts from cut to cut of teeth that are not cut one beside the other.
 std::vector<Effect> cut_orders(int z, FlankChoice flank, double opposite) {
   constexpr int kMostSteps = 40;
@@ -402,6 +412,7 @@ std::vector<std::vector<Effect>> forms_from_tooth_to_tooth(int teeth,
       add_beginning(teeth, course, flank, opposite, sets);
       add_of_some_teeth(teeth, course, flank, opposite, sets);
       if (heights) add_repeating(teeth, flank, opposite, sets);
+      if (heights) sets.push_back(slips(teeth, flank, opposite));
       if (heights)
         for (int number = 2; number <= kMostSectors; ++number)
           sets.push_back(sectors_around(teeth, flank, opposite, number));
