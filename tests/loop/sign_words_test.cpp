@@ -314,7 +314,7 @@ std::vector<Told> forms(const loop::FlankGeometry& g) {
        0},
       {"unnamed_spiral",
        {300, 1},
-       "from 300 deg on, counter-clockwise once around, the radius grows evenly by",
+       "from 300 deg on, once around towards larger angles, the radius grows evenly by",
        "the radius shrinks evenly",
        15,
        1,

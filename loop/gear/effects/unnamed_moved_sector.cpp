@@ -111,10 +111,8 @@ EffectFamily unnamed_views() {
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     const std::size_t views = shape.size() - kValues;
     const auto view = static_cast<std::size_t>(share_of_turn(p, shape[1]) * double(views));
-    c[0] = p.surface == Surface::kFlank
-               ? shape[kValues + std::min(view, views - 1)] *
-                     normal_part(g, p, p.polar_direction[0], p.polar_direction[1])
-               : 0.0;
+    c[0] = shape[kValues + std::min(view, views - 1)] *
+           normal_part(g, p, p.polar_direction[0], p.polar_direction[1]);
   };
   f.faces_a_direction = true;
   f.is_followed_nearly = true;  // (patches of a scan do not end at its edges)
@@ -153,10 +151,8 @@ EffectFamily unnamed_spiral() {
   EffectFamily f = described("unnamed_spiral", {"from_deg", "zero_at"});
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     const double nothing = shape[1] == kMeanOfDrift ? 0.5 : shape[1] == kFirstOfDrift ? 0.0 : 1.0;
-    c[0] = p.surface == Surface::kFlank
-               ? (share_of_turn(p, shape[0]) - nothing) *
-                     normal_part(g, p, p.polar_direction[0], p.polar_direction[1])
-               : 0.0;
+    c[0] = (share_of_turn(p, shape[0]) - nothing) *
+           normal_part(g, p, p.polar_direction[0], p.polar_direction[1]);
   };
   f.is_drift = true;
   f.faces_a_direction = true;
@@ -169,7 +165,7 @@ EffectFamily unnamed_spiral() {
                  {"zero_at", TermKey::Kind::kWord, {"mean", "beginning", "end"}}};
   f.words = [](const ToldForm& told) {
     const int sign = told.sign();
-    return printed("from %.4g deg on, counter-clockwise once around, ",
+    return printed("from %.4g deg on, once around towards larger angles, ",
                    from_0_to_360(told.shape[0])) +
            "the radius " +
            (sign < 0   ? "shrinks"

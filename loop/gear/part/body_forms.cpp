@@ -517,13 +517,17 @@ bool tell_as_views(PartModel& model) {
     if (moves_the_teeth(effect)) names.push_back(e);
   }
   if (!around || all.size() < 2) return false;
-  CheapestAnswer best{.least = cost_of(model, model.effects) - kClearly};
+  CheapestAnswer best{.least = cost_of(model, model.effects)};
   for (const Indices& set : with_and_without(all, names)) {
     if (set.size() < 2) continue;
     const auto fit = fit_of(model, without(model.effects, set));
     for (const Effect& form :
-         views_and_spirals(model.geometry, model.table, model.patches, *fit->residuals_um()))
-      best.ask(model, one_form_for(model, set, {form}, {}, kMostMore), set);
+         views_and_spirals(model.geometry, model.table, model.patches, *fit->residuals_um())) {
+      std::vector<Effect> with = one_form_for(model, set, {form}, {}, kMostMore);
+      // (more views follow what fewer do, and a little of the error)
+      if (!with.empty() && cost_of(model, with) < best.least - kClearly)
+        best.ask(model, std::move(with), set);
+    }
   }
   if (best.effects.empty()) return false;
   put_in_place_of(model, best.these, best.effects);

@@ -87,7 +87,9 @@ bool tell_as_swelling_form(PartModel& model) {
     const Runs runs = along == 0 ? Runs::kOverProfile : Runs::kOverFace;
     for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
       const Effect& mean = model.effects[e];
-      if (e == w || mean.family->named || mean.flank != waves.flank || mean.columns() != 1 ||
+      // (a name with a place, too, may be the mean)
+      const bool name = mean.family->named && !mean.family->shape_is_continuous;
+      if (e == w || name || mean.flank != waves.flank || mean.columns() != 1 ||
           runs_of(model.geometry, mean, Flanks::kOfEither) != runs)
         continue;
       if (put_one_form_for(

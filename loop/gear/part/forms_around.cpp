@@ -525,7 +525,7 @@ void take_form_around(PartModel& model) {
 }
 
 bool add_form_that_is_left(PartModel& model) {
-  constexpr double kSure = 1e-6, kClearly = 40.0;  // of chance, all places asked; chi-square
+  constexpr double kSure = 1e-6, kClearly = 25.0;  // of chance, all places asked; of cost
   if (!has_single_values_only(model)) return false;
   for (const RemainderFinding& finding : model.remainder) {
     if (!finding.effect || finding.local || !(finding.p_value < kSure) ||
@@ -534,7 +534,12 @@ bool add_form_that_is_left(PartModel& model) {
     std::vector<Effect> with = model.effects;
     with.push_back(*finding.effect);
     refine_nearby(model.geometry, model.table, model.patches, with);
-    if (cost_of(model, with) > cost_of(model, model.effects) - kClearly) continue;
+    // (the noise is taken for more than it is while such a form stands in it)
+    const auto cost = [&](const std::vector<Effect>& effects) {
+      const auto fit = fit_of(model, effects);
+      return cost_around(model.geometry, fit->observations(), fit->residual_square(), effects);
+    };
+    if (cost(with) > cost(model.effects) - kClearly) continue;
     put_in_place_of(model, {}, with);
     model.discovery.chosen.back().p_value = finding.p_value;
     return true;
