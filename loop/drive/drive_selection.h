@@ -115,6 +115,9 @@ class DriveSelection {
   bool move_state(const DriveOutcome& outcome);
   /// Where the spectrum of what is left has a line that noise would not make: one candidate more.
   bool propose_wave(const DriveOutcome& outcome);
+  /// Effects with a name that do as well as this wave beside others, in all their shapes.
+  [[nodiscard]] std::vector<DriveEffect> names_of_wave(const std::vector<DriveEffect>& beside,
+                                                       const DriveEffect& wave) const;
   /// Where a part of the run, or of every turn of a shaft, differs from the rest more than noise
   /// would: one candidate more. What goes round with the angle, or has no name, may only imitate it
   /// and is left out while it is looked for; a spell that was chosen stays.
@@ -191,6 +194,8 @@ class DriveSelection {
   void fill_whole_columns();
   /// True where one was told. `pieces_too`: several pieces may also be two forms.
   bool tell_as_one_whole(DriveOutcome& outcome, bool pieces_too);
+  /// Waves of one direction, or of a part of the range, of which the spectra of parts tell.
+  void add_waves_of_parts(const std::vector<DriveEffect>& base, std::vector<WholeForm>& forms) const;
   void add_waves_over_the_angle(const std::vector<DriveEffect>& base,
                                 std::vector<WholeForm>& forms) const;
   /// Of places that leave the same of the rows seen those that are locked away say which it is: on

@@ -34,10 +34,10 @@ std::vector<DriveShape> waves_about(const BenchTable& table, double order) {
   constexpr double kOfTheClock = 0.15, kFewestRows = 3.0, kFewestTimes = 2.0, kWarmer = 3.0;
   std::vector<DriveShape> shapes;
   const auto add = [&](double at, double how) {
-    for (const double reads : {0.0, 1.0})
+    for (const double direction : {0.0, drive_effects::kAsItReads})
       for (int phase = 0; phase < kPhases; ++phase)
-        if (reads == 0.0 || (table.has(true) && table.has(false)))
-          shapes.push_back({at, how, reads, static_cast<double>(phase) / kPhases});
+        if (direction == 0.0 || (table.has(true) && table.has(false)))
+          shapes.push_back({at, how, direction, static_cast<double>(phase) / kPhases});
   };
   std::vector<double> sizes{double(drive_effects::kWaveWithLoad), double(drive_effects::kWaveGrows),
                             double(drive_effects::kWaveWithSpeed)};

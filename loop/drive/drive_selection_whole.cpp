@@ -15,6 +15,7 @@
 #include "trueflank/loop/drive/one_form.h"
 #include "trueflank/loop/drive/place_profile.h"
 #include "trueflank/loop/drive/states_scan.h"
+#include "trueflank/loop/drive/wave_scan.h"
 
 // One form in place of all that was chosen, or beside what has a name: asked by what it leaves,
 // once the others are chosen.
@@ -455,10 +456,31 @@ std::vector<DriveSelection::WholeForm> DriveSelection::whole_forms(
   return refined;
 }
 
+void DriveSelection::add_waves_of_parts(const std::vector<DriveEffect>& base,
+                                        std::vector<WholeForm>& forms) const {
+  if (!table_.has_angle) return;
+  const auto family_of = [](bool DriveFamily::*which) {
+    return &*std::find_if(drive_library().begin(), drive_library().end(),
+                          [&](const DriveFamily& f) { return f.*which; });
+  };
+  const DriveFamily *sized = family_of(&DriveFamily::is_wave_of_sizes),
+                    *of_part = family_of(&DriveFamily::is_wave_of_part);
+  if (!may_be_there(*sized)) return;
+  const DriveContext here = context();
+  const DriveFit fit(here, value_, base, FitRows::kTraining);
+  const BesideEffects beside(here, value_, base, FitRows::kTraining);
+  for (const PartWave& wave : waves_of_parts(here, value_ - fit.explained_nm())) {
+    const DriveFamily* family = wave.is_of_part ? of_part : sized;
+    const DriveEffect effect{family, wave.shape};
+    forms.push_back({effect, beside.with(effect).gain, cost_of_looks(wave.looks) + family->dearer});
+  }
+}
+
 void DriveSelection::add_waves_over_the_angle(const std::vector<DriveEffect>& base,
                                               std::vector<WholeForm>& forms) const {
   constexpr double kSure = 1e-4, kNear = 0.5;
   if (!table_.has_angle) return;
+  add_waves_of_parts(base, forms);
   const DriveContext here = context();
   const DriveFit fit(here, value_, base, FitRows::kTraining);
   WaveSpectra spectra;
@@ -474,26 +496,9 @@ void DriveSelection::add_waves_over_the_angle(const std::vector<DriveEffect>& ba
   for (const DriveFamily& family : drive_library())
     if (family.shape_of_wave && may_be_there(family))
       add({&family, family.shape_of_wave(line.order, line.opposite)});
-  // One direction alone may have it.
-  const auto sized = std::find_if(drive_library().begin(), drive_library().end(),
-                                  [](const DriveFamily& f) { return f.is_wave_of_sizes; });
-  if (table_.has(true) && table_.has(false) && may_be_there(*sized))
-    for (const double how :
-         {double(drive_effects::kWaveForward), double(drive_effects::kWaveBackward)}) {
-      constexpr int kPhases = 16, kApart = 4;
-      const BesideEffects beside(here, value_, base, FitRows::kTraining);
-      WholeForm best{{&*sized, {}}, 0.0, cost_of_looks(table_.points.size())};
-      for (int k = -kApart; k <= kApart; ++k)
-        for (int phase = 0; phase < kPhases; ++phase) {
-          const DriveShape shape{line.order + 0.125 * k / std::max(1.0, table_.turns), how, 0.0,
-                                 static_cast<double>(phase) / kPhases};
-          if (const double gain = beside.with({&*sized, shape}).gain; gain > best.gain) {
-            best.gain = gain;
-            best.effect.shape = shape;
-          }
-        }
-      if (!best.effect.shape.empty()) forms.push_back(best);
-    }
+  for (const DriveFamily& family : drive_library())
+    if (family.shapes_at_order && may_be_there(family))
+      for (DriveShape& shape : family.shapes_at_order(here, line.order)) add({&family, shape});
   for (std::size_t g = 0; g < candidates_.size(); ++g)
     if (const double order = candidates_[g].order();
         order > 0.0 && candidates_[g].family->named && !banned_[g] &&

@@ -42,17 +42,34 @@ inline constexpr double kMostFriction = 0.4;
 /// The one shape of an effect that grows over the run; none where any slope over so few set points looks like it.
 [[nodiscard]] std::vector<DriveShape> where_rows_follow_each_other(const DriveContext& context);
 
-/// What the size of a wave follows, that it comes by the clock, or the one direction that has it.
+/// What the size of a wave follows, or that it comes by the clock.
 enum WaveHow {
-  kWaveWithLoad = 1,
+  kWaveEven,
+  kWaveWithLoad,
   kWaveGrows,
   kWaveByRows,
-  kWaveForward,
-  kWaveBackward,
   kWaveWithSpeed,
   kWaveWithWarmth,
   kWaveWithCold
 };
+/// The values of a wave of sizes: `kWaveDirection` is that of in_direction(). The last three are
+/// those of one that a part of the range alone has.
+enum WaveValue : std::size_t {
+  kWaveOrder,
+  kWaveHow,
+  kWaveDirection,
+  kWavePhase,
+  kWaveOver,   ///< load, speed, temperature, or the run (kOverRun)
+  kWavePlace,  ///< 0 ... 1, of the largest load and speed
+  kWaveSide
+};
+inline constexpr double kOverRun = 3.0;
+/// Where it is: beyond the place, up to it, or on both sides the one opposite to the other.
+enum WaveSide { kWaveAbove, kWaveBelow, kWaveTurnsOver };
+/// What makes a wave larger in a row, 1 at the most.
+[[nodiscard]] double size_of_wave(const DriveContext& context, const BenchPoint& p, double how);
+/// Where a row is, 0 ... 1, for the place of a wave.
+[[nodiscard]] double share_for_wave(const DriveContext& context, const BenchPoint& p, double over);
 
 /// What changes in the course of a run or over a part of a turn.
 enum What { kFlanks, kDrag, kOutputReads, kOutputGain };

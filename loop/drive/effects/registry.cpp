@@ -67,6 +67,7 @@ const std::vector<DriveFamily>& drive_library() {
         unnamed_reading_onset(),
         unnamed_power_onset(),
         unnamed_wave(),
+        unnamed_part_wave(),
         unnamed_coordinate_wave(),
         unnamed_reading_coordinate_wave(),
         unnamed_sawtooth(),

@@ -74,6 +74,7 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_root();
 [[nodiscard]] DriveFamily unnamed_power_onset();
 [[nodiscard]] DriveFamily unnamed_wave();
+[[nodiscard]] DriveFamily unnamed_part_wave();
 [[nodiscard]] DriveFamily unnamed_states();
 [[nodiscard]] DriveFamily unnamed_coordinate_wave();
 [[nodiscard]] DriveFamily unnamed_reading_coordinate_wave();
