@@ -13,7 +13,7 @@ double DriveContext::friction(const BenchPoint& p) const {
           std::pow(std::max(load_nm(p), 0.0) / table.most_load_nm, state.load_exponent);
   if (state.mixed_value != 0.0) {
     const double x = p.speed_rpm / state.mixed_speed_rpm;
-    mu += state.mixed_value * std::exp(-x * x);
+    mu += state.mixed_value * std::exp(state.mixed_exponent == 1.0 ? -x : -x * x);
   }
   return mu;
 }

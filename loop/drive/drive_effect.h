@@ -21,7 +21,7 @@ struct DriveState {
   double shift = 0.0;        ///< friction_coefficient less the design's
   double difference = 0.0;   ///< direction_dependent_friction
   double load_value = 0.0, load_exponent = 1.0;     ///< load_dependent_friction
-  double mixed_value = 0.0, mixed_speed_rpm = 1.0;  ///< mixed_friction
+  double mixed_value = 0.0, mixed_speed_rpm = 1.0, mixed_exponent = 2.0;  ///< mixed_friction
   double scale = 1.0;
   double input_zero_nm = 0.0, output_zero_nm = 0.0;    ///< torque_offset
   double input_drift_nm = 0.0, output_drift_nm = 0.0;  ///< torque_drift

@@ -84,6 +84,7 @@ DriveOutcome DriveSelection::choose() {
   tell_as_one_place_of_a_turn(outcome);
   follow_the_run(outcome);
   tell_as_whole_forms(outcome);
+  let_held_out_rows_settle_kin(outcome);
   prefer_plainer_names(outcome);
   drop_what_is_nothing(outcome);
   veto(outcome);
@@ -311,8 +312,8 @@ bool DriveSelection::move_state(const DriveOutcome& outcome) {
   const double output_nm = table_.most_load_nm * model_.ratio;
   const bool moved =
       far(&DriveState::shift) || far(&DriveState::difference) || far(&DriveState::load_value) ||
-      far(&DriveState::mixed_value) || far(&DriveState::scale) ||
-      far(&DriveState::input_zero_nm, table_.most_load_nm) ||
+      far(&DriveState::mixed_value) || far(&DriveState::mixed_exponent) ||
+      far(&DriveState::scale) || far(&DriveState::input_zero_nm, table_.most_load_nm) ||
       far(&DriveState::input_drift_nm, table_.most_load_nm) ||
       far(&DriveState::output_zero_nm, output_nm) || far(&DriveState::output_drift_nm, output_nm) ||
       far_of(next.mesh_value, state_.mesh_value);

@@ -17,9 +17,9 @@ using namespace drive_effects;
 
 constexpr double kHighestOfParts = 14.0;  ///< order
 constexpr double kStepOfTurns = 0.35;     ///< of the order: an input's turn over the whole run
-constexpr double kMostTerms = 6e6;        ///< rows times orders
-constexpr int kBins = 10;                 ///< of as many rows each
-constexpr Eigen::Index kBlock = 512;      ///< orders at once
+constexpr double kMostPartTerms = 6e6;    ///< rows times orders
+constexpr int kBinsOfParts = 10;          ///< of as many rows each
+constexpr Eigen::Index kOrdersAtOnce = 512;  ///< orders at once
 
 /// A row in the noise's units: what is left of it, and how much a wave of 1 N m moves it.
 struct PartRow {
@@ -38,14 +38,14 @@ struct Parted {
 
 /// Sums over rows of one order after the other: of what is left with the wave's two phases, and of
 /// these phases' products.
-struct LineSum {
+struct PartSum {
   Eigen::ArrayXf c, s, cc, cs;
   float weight = 0.0F;
   void clear(Eigen::Index lines) {
     c = s = cc = cs = Eigen::ArrayXf::Zero(lines);
     weight = 0.0F;
   }
-  void add(const LineSum& other, float sign) {
+  void add(const PartSum& other, float sign) {
     c += sign * other.c;
     s += sign * other.s;
     cc += other.cc;
@@ -68,7 +68,7 @@ struct PartKind {
   [[nodiscard]] bool has_a_place() const { return over >= 0.0; }
 };
 
-struct LikelyWave {
+struct PartCandidate {
   PartKind kind;
   double gain = 0.0, order = 0.0, place = 0.0;
 };
@@ -103,20 +103,32 @@ class PartScan {
   std::vector<PartWave> likeliest() {
     constexpr std::size_t kFewestRows = 30;
     if (rows_.size() < kFewestRows || !(sum_ > 0.0) ||
-        static_cast<double>(lines_) * static_cast<double>(rows_.size()) > kMostTerms)
+        static_cast<double>(lines_) * static_cast<double>(rows_.size()) > kMostPartTerms)
       return {};
-    for (first_line_ = 0; first_line_ < lines_; first_line_ += kBlock) ask_block();
-    std::stable_sort(best_.begin(), best_.end(),
-                     [](const LikelyWave& a, const LikelyWave& b) { return a.gain > b.gain; });
+    for (first_line_ = 0; first_line_ < lines_; first_line_ += kOrdersAtOnce) ask_block();
+    std::stable_sort(
+        best_.begin(), best_.end(),
+        [](const PartCandidate& a, const PartCandidate& b) { return a.gain > b.gain; });
     constexpr std::size_t kMost = 4;
     std::vector<PartWave> waves;
-    for (LikelyWave& wave : best_) {
+    for (PartCandidate& wave : best_) {
       if (waves.size() == kMost || !is_more_than_noise(wave)) break;
       PartWave finer = refined(wave);
       finer.looks = looks_at(wave.kind);
       waves.push_back(std::move(finer));
     }
     return waves;
+  }
+
+  [[nodiscard]] DriveShape finer(const DriveShape& wave) const {
+    PartCandidate about{.kind = {.how = wave[kWaveHow], .direction = wave[kWaveDirection]},
+                        .order = wave[kWaveOrder]};
+    if (wave.size() > kWaveSide) {
+      about.kind.over = wave[kWaveOver];
+      about.kind.side = static_cast<int>(wave[kWaveSide]);
+      about.place = wave[kWavePlace];
+    }
+    return refined(about).shape;
   }
 
  private:
@@ -128,8 +140,8 @@ class PartScan {
       parted.share.push_back(share_for_wave(context_, context_.table.points[i], over));
     std::vector<double> sorted = parted.share;
     std::sort(sorted.begin(), sorted.end());
-    for (int k = 1; k < kBins; ++k) {
-      const std::size_t at = static_cast<std::size_t>(k) * sorted.size() / kBins;
+    for (int k = 1; k < kBinsOfParts; ++k) {
+      const std::size_t at = static_cast<std::size_t>(k) * sorted.size() / kBinsOfParts;
       if (at == 0) continue;
       const double place = 0.5 * (sorted[at - 1] + sorted[at]);
       if (sorted[at] > sorted[at - 1] &&
@@ -145,7 +157,7 @@ class PartScan {
 
   /// Of orders from one on: sums of every bin, direction and size.
   void ask_block() {
-    const Eigen::Index lines = std::min(kBlock, lines_ - first_line_);
+    const Eigen::Index lines = std::min(kOrdersAtOnce, lines_ - first_line_);
     for (const double how :
          {double(kWaveEven), double(kWaveWithLoad), double(kWaveWithSpeed)}) {
       for (const Parted& parted : parted_) {
@@ -159,7 +171,7 @@ class PartScan {
   void sum_bins(const Parted& parted, double how, Eigen::Index lines) {
     const std::size_t bins = parted.place.size() + 1;
     sums_.resize(2 * bins);
-    for (LineSum& sum : sums_) sum.clear(lines);
+    for (PartSum& sum : sums_) sum.clear(lines);
     if (phases_of_ != first_line_) fill_phases(lines);
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const PartRow& row = rows_[i];
@@ -167,7 +179,7 @@ class PartScan {
                           : how == double(kWaveWithLoad) ? row.size[0]
                                                          : row.size[1];
       const double weight = size * row.lever;
-      LineSum& sum = sums_[2 * static_cast<std::size_t>(parted.bin[i]) + (row.forward ? 0 : 1)];
+      PartSum& sum = sums_[2 * static_cast<std::size_t>(parted.bin[i]) + (row.forward ? 0 : 1)];
       const auto at = static_cast<Eigen::Index>(i);
       const auto x = cosine_.col(at), y = sine_.col(at);
       sum.c += static_cast<float>(weight * row.left) * x;
@@ -204,7 +216,7 @@ class PartScan {
     return both_ ? std::vector{0.0, 1.0, 2.0, kAsItReads} : std::vector{0.0};
   }
   /// The sums of both directions as this one has them.
-  static void add_direction(LineSum& to, const LineSum& forward, const LineSum& backward,
+  static void add_direction(PartSum& to, const PartSum& forward, const PartSum& backward,
                             double direction, float sign) {
     if (direction != 2.0) to.add(forward, direction == kAsItReads ? -sign : sign);
     if (direction != 1.0) to.add(backward, sign);
@@ -215,7 +227,7 @@ class PartScan {
     const Eigen::Index lines = sums_.front().c.size();
     const bool first = &parted == &parted_.front();
     for (const double direction : directions()) {
-      LineSum all;
+      PartSum all;
       all.clear(lines);
       for (std::size_t b = 0; b < bins; ++b)
         add_direction(all, sums_[2 * b], sums_[2 * b + 1], direction, 1.0F);
@@ -224,11 +236,11 @@ class PartScan {
                     (direction == 0.0 && how == double(kWaveWithSpeed))))
         judge({how, direction, -1.0, kWaveAbove}, all, 0.0);
       if (how == double(kWaveWithSpeed)) continue;
-      LineSum below;
+      PartSum below;
       below.clear(lines);
       for (std::size_t b = 0; b + 1 < bins; ++b) {
         add_direction(below, sums_[2 * b], sums_[2 * b + 1], direction, 1.0F);
-        LineSum above = all, over = all;
+        PartSum above = all, over = all;
         above.c -= below.c;
         above.s -= below.s;
         above.cc -= below.cc;
@@ -243,22 +255,24 @@ class PartScan {
     }
   }
 
-  void judge(const PartKind& kind, const LineSum& sum, double place) {
+  void judge(const PartKind& kind, const PartSum& sum, double place) {
     Eigen::Index line = 0;
     const double gain = sum.power().maxCoeff(&line);
-    const auto same = std::find_if(best_.begin(), best_.end(), [&](const LikelyWave& w) {
+    const auto same = std::find_if(best_.begin(), best_.end(), [&](const PartCandidate& w) {
       return w.kind.how == kind.how && w.kind.direction == kind.direction &&
              w.kind.over == kind.over && w.kind.side == kind.side;
     });
-    LikelyWave& wave = same == best_.end() ? best_.emplace_back() : *same;
+    PartCandidate& wave = same == best_.end() ? best_.emplace_back() : *same;
     if (gain <= wave.gain) return;
     wave = {kind, gain, first_ + step_ * static_cast<double>(first_line_ + line), place};
   }
 
   [[nodiscard]] std::size_t looks_at(const PartKind& kind) const {
-    return static_cast<std::size_t>(lines_) * (kind.has_a_place() ? kBins * 6 : 4);
+    const std::size_t kinds = 2 * directions().size();  // even, or with the load
+    return static_cast<std::size_t>(lines_) * kinds *
+           (kind.has_a_place() ? 3 * kBinsOfParts * parted_.size() : 1);
   }
-  [[nodiscard]] bool is_more_than_noise(const LikelyWave& wave) const {
+  [[nodiscard]] bool is_more_than_noise(const PartCandidate& wave) const {
     constexpr double kSure = 1e-6;
     const double n = static_cast<double>(rows_.size());
     const double single = std::pow(std::max(0.0, 1.0 - wave.gain / sum_), 0.5 * (n - 3.0));
@@ -301,7 +315,7 @@ class PartScan {
     return {a * c + b * s, std::atan2(b, a) / kTwoPi};
   }
 
-  [[nodiscard]] PartWave refined(const LikelyWave& wave) const {
+  [[nodiscard]] PartWave refined(const PartCandidate& wave) const {
     const PartKind& kind = wave.kind;
     const auto at = std::find_if(parted_.begin(), parted_.end(),
                                  [&](const Parted& p) { return p.over == kind.over; });
@@ -349,15 +363,20 @@ class PartScan {
   std::vector<std::size_t> at_;
   std::vector<PartRow> rows_;
   std::vector<Parted> parted_;
-  std::vector<LineSum> sums_;
+  std::vector<PartSum> sums_;
   Eigen::ArrayXXf cosine_, sine_;  ///< orders x rows
-  std::vector<LikelyWave> best_;
+  std::vector<PartCandidate> best_;
   double sum_ = 0.0, step_ = 1.0, first_ = 1.0;
   Eigen::Index lines_ = 0, first_line_ = 0, phases_of_ = -1;
   bool both_ = false, wrapped_ = false;
 };
 
 }  // namespace
+
+DriveShape finer_part_wave(const DriveContext& context, const Eigen::VectorXd& left,
+                           const DriveShape& wave) {
+  return PartScan(context, left).finer(wave);
+}
 
 std::vector<PartWave> waves_of_parts(const DriveContext& context, const Eigen::VectorXd& left) {
   if (!context.table.has_angle || context.table.turns < 0.9) return {};

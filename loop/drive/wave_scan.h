@@ -24,4 +24,8 @@ struct PartWave {
 [[nodiscard]] std::vector<PartWave> waves_of_parts(const DriveContext& context,
                                                    const Eigen::VectorXd& left);
 
+/// The same wave with its order, place and phase where they take most off `left` [N m], near by.
+[[nodiscard]] DriveShape finer_part_wave(const DriveContext& context, const Eigen::VectorXd& left,
+                                         const DriveShape& wave);
+
 }  // namespace trueflank::loop

@@ -37,6 +37,14 @@ inline constexpr double kMostFriction = 0.4;
 /// "in a wave of order 0.25 per input turn (carrier)".
 [[nodiscard]] std::string wave_in_words(const DriveModel& model, double order);
 [[nodiscard]] std::string short_text(double value);
+/// Scales of the speed, and the exponent by which a loss fades with it: 2, or 1.
+[[nodiscard]] std::vector<DriveShape> fading_shapes(const DriveContext& context);
+/// exp(-(n/n0)^exponent).
+[[nodiscard]] double faded(const BenchPoint& p, const DriveShape& shape);
+/// What is said of one that fades by exp(-n/n0): a design has the other alone.
+inline constexpr const char* kFadesOtherwise =
+    "a design's [losses] have exp(-(n/n0)^2) alone, and one of it";
+
 [[nodiscard]] inline double first_value(const DriveShape& shape) { return shape[0]; }
 
 /// The one shape of an effect that grows over the run; none where any slope over so few set points looks like it.
@@ -63,7 +71,7 @@ enum WaveValue : std::size_t {
   kWavePlace,  ///< 0 ... 1, of the largest load and speed
   kWaveSide
 };
-inline constexpr double kOverRun = 3.0;
+inline constexpr double kOverRun = 3.0, kOverDrivingLoad = 4.0;
 /// Where it is: beyond the place, up to it, or on both sides the one opposite to the other.
 enum WaveSide { kWaveAbove, kWaveBelow, kWaveTurnsOver };
 /// What makes a wave larger in a row, 1 at the most.

@@ -86,6 +86,10 @@ const std::vector<DriveFamily>& drive_library() {
         unnamed_log_onset(),
         unnamed_moving_hump(),
         unnamed_cusps(),
+        unnamed_plateau(),
+        unnamed_two_steps(),
+        unnamed_bow(),
+        unnamed_reading_bow(),
     };
     for (DriveFamily& family : all) {
       family.shape_values.resize(family.shape_names.size());

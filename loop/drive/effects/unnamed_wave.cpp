@@ -99,14 +99,14 @@ WaveWords words_of_size(const DriveShape& s) {
 }
 
 /// " of 400 rpm", " of 1.2 N m at the input": the place of a wave of a part.
-std::string place_in_words(const DriveShape& s, const Parameter& place) {
+std::string place_of_wave(const DriveShape& s, const Parameter& place) {
   if (s[kWaveOver] == kOverRun) return "line " + with_interval(place, "");
   return std::string("a ") + name_of_quantity(s[kWaveOver]) + " of " +
          with_interval(place, unit_of_quantity(s[kWaveOver]));
 }
 
 std::string part_in_words(const DriveShape& s, const Parameter& place) {
-  const std::string at = place_in_words(s, place);
+  const std::string at = place_of_wave(s, place);
   if (s[kWaveSide] == double(kWaveTurnsOver)) return ", that turns over at " + at;
   return std::string(", only ") + (s[kWaveSide] == double(kWaveAbove) ? "above " : "up to ") + at;
 }
@@ -181,7 +181,7 @@ std::vector<DriveShape> places_near(const DriveContext& context, const DriveShap
   return shapes;
 }
 
-DriveFamily wave(bool of_part) {
+DriveFamily wave_of_sizes(bool of_part) {
   DriveFamily f = without_a_name();
   f.parameters = {"amount_nm"};
   f.shape_names = {"order", "how", "direction", "phase"};
@@ -230,13 +230,13 @@ DriveFamily wave(bool of_part) {
 }  // namespace
 
 DriveFamily unnamed_wave() {
-  DriveFamily f = wave(false);
+  DriveFamily f = wave_of_sizes(false);
   f.is_wave_of_sizes = true;
   return f;
 }
 
 DriveFamily unnamed_part_wave() {
-  DriveFamily f = wave(true);
+  DriveFamily f = wave_of_sizes(true);
   f.shape_names.insert(f.shape_names.end(), {"over", "place", "side"});
   f.shape_values.insert(
       f.shape_values.end(),
