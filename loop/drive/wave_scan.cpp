@@ -87,7 +87,9 @@ class PartScan {
                        .forward = p.forward,
                        .size = {size_of_wave(context, p, kWaveWithLoad),
                                 size_of_wave(context, p, kWaveWithSpeed)}});
-      sum_ += rows_.back().left * rows_.back().left;
+      const double square = rows_.back().left * rows_.back().left;
+      sum_ += square;
+      fourths_ += square * square;
     }
     both_ = context.table.has(true) && context.table.has(false);
     wrapped_ = context.table.turns <= 1.01;
@@ -274,8 +276,10 @@ class PartScan {
   }
   [[nodiscard]] bool is_more_than_noise(const PartCandidate& wave) const {
     constexpr double kSure = 1e-6;
-    const double n = static_cast<double>(rows_.size());
-    const double single = std::pow(std::max(0.0, 1.0 - wave.gain / sum_), 0.5 * (n - 3.0));
+    // (rows of a small error may be few of all, and make most of the sum)
+    const double n = std::min(static_cast<double>(rows_.size()), 3.0 * sum_ * sum_ / fourths_);
+    const double single =
+        std::pow(std::max(0.0, 1.0 - wave.gain / sum_), 0.5 * std::max(0.0, n - 3.0));
     return single * static_cast<double>(looks_at(wave.kind)) < kSure;
   }
 
@@ -366,7 +370,7 @@ class PartScan {
   std::vector<PartSum> sums_;
   Eigen::ArrayXXf cosine_, sine_;  ///< orders x rows
   std::vector<PartCandidate> best_;
-  double sum_ = 0.0, step_ = 1.0, first_ = 1.0;
+  double sum_ = 0.0, fourths_ = 0.0, step_ = 1.0, first_ = 1.0;
   Eigen::Index lines_ = 0, first_line_ = 0, phases_of_ = -1;
   bool both_ = false, wrapped_ = false;
 };

@@ -80,7 +80,7 @@ TEST(PartsOfRangesOnBenches, AWaveOfAWholeOrderHasItsName) {
   expect_all(7400, 3, [](Answers& answers, std::uint64_t seed) {
     DrawnBench bench = turning(seed, seed % 2 == 0);
     const int order = bench.whole(3, 6);
-    const double size = bench.scatter_nm() * bench.between(4.0, 9.0),
+    const double size = bench.scatter_nm() * bench.between(3.0, 5.0),
                  phase = bench.between(0.0, 6.28);
     const auto closed = loop::close_drive_loop(bench.model(), bench.data([&](const DrawnRow& r) {
       return size * turned(r, order, phase);
