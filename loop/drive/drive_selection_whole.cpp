@@ -296,7 +296,8 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
       drops_a_name = drops_a_name || (outcome.effects[e].family->named && !only_mends);
     }
     // (names of which one takes back what the other does stand for no cause)
-    if (best.size < now.size && drop_names_that_cancel(outcome, best)) drops_a_name = false;
+    const bool cancel = best.size < now.size && drop_names_that_cancel(outcome, best);
+    if (cancel) drops_a_name = false;
     const std::size_t form = best.effects.size() - 1;
     const DriveContext here = context();
     double shared = 1.0;
@@ -305,10 +306,10 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
     const double gain = now.figure(noise) - figure -
                         (1.0 - 1.0 / shared) * std::max(0.0, now.square - best.square) / noise;
     // (a name that only mends a piece goes with it where far fewer figures do as much)
-    const bool mends =
-        drops_a_piece && (best.size + kFarFewer <= now.size ||
-                          (best.size <= now.size && best.effects.size() < outcome.effects.size()));
-    if (gain < (drops_any && !drops_a_name ? kAsOne : mends ? kForBoth : kClearly)) continue;
+    const bool fewer = best.size <= now.size && best.effects.size() < outcome.effects.size();
+    const bool mends = drops_a_piece && (best.size + kFarFewer <= now.size || fewer);
+    const double as_one = fewer && (cancel || drops_a_piece) ? 0.0 : kAsOne;
+    if (gain < (drops_any && !drops_a_name ? as_one : mends ? kForBoth : kClearly)) continue;
     bool follow = true;
     for (std::size_t e = 0; e < best.effects.size() && follow; ++e)
       follow = !(e == form || (best.from[e] < 0 && !best.effects[e].family->named)) ||

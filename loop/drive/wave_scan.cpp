@@ -114,7 +114,8 @@ class PartScan {
     constexpr std::size_t kMost = 4;
     std::vector<PartWave> waves;
     for (PartCandidate& wave : best_) {
-      if (waves.size() == kMost || !is_more_than_noise(wave)) break;
+      if (waves.size() == kMost) break;
+      if (!is_more_than_noise(wave)) continue;
       PartWave finer = refined(wave);
       finer.looks = looks_at(wave.kind);
       waves.push_back(std::move(finer));
@@ -276,8 +277,10 @@ class PartScan {
   }
   [[nodiscard]] bool is_more_than_noise(const PartCandidate& wave) const {
     constexpr double kSure = 1e-6;
-    // (rows of a small error may be few of all, and make most of the sum)
-    const double n = std::min(static_cast<double>(rows_.size()), 3.0 * sum_ * sum_ / fourths_);
+    // (rows of a small error may be few of all, and make most of the sum: a place finds them)
+    const double n = wave.kind.has_a_place()
+                         ? std::min(static_cast<double>(rows_.size()), 3.0 * sum_ * sum_ / fourths_)
+                         : static_cast<double>(rows_.size());
     const double single =
         std::pow(std::max(0.0, 1.0 - wave.gain / sum_), 0.5 * std::max(0.0, n - 3.0));
     return single * static_cast<double>(looks_at(wave.kind)) < kSure;
