@@ -202,7 +202,8 @@ class DriveSelection {
   /// True where one was told. `pieces_too`: several pieces may also be two forms.
   bool tell_as_one_whole(DriveOutcome& outcome, bool pieces_too);
   /// Waves of one direction, or of a part of the range, of which the spectra of parts tell.
-  void add_waves_of_parts(const std::vector<DriveEffect>& base, std::vector<WholeForm>& forms) const;
+  void add_waves_of_parts(const std::vector<DriveEffect>& base,
+                          std::vector<WholeForm>& forms) const;
   void add_waves_over_the_angle(const std::vector<DriveEffect>& base,
                                 std::vector<WholeForm>& forms) const;
   /// Of places that leave the same of the rows seen those that are locked away say which it is: on

@@ -22,7 +22,8 @@ EfficiencyCurve::EfficiencyCurve(const DriveModel& model) {
 }
 
 EfficiencyCurve::EfficiencyCurve(const DriveModel& model, std::size_t mesh) {
-  const double back = model.losses ? model.losses->backward_friction.value_or(model.friction) : model.friction;
+  const double back =
+      model.losses ? model.losses->backward_friction.value_or(model.friction) : model.friction;
   for (double mu = 0.0; mu <= kCurveEnd + 3.5 * kCurveStep; mu += kCurveStep) {
     std::vector<double> one(model.meshes.size(), model.friction), other(model.meshes.size(), back);
     one[mesh] = other[mesh] = mu;
@@ -39,8 +40,9 @@ double EfficiencyCurve::at(bool forward, double friction) const {
       std::clamp(std::floor(x) - 1.0, 0.0, static_cast<double>(y.size()) - 4.0));
   const double t = x - static_cast<double>(i);
   // Lagrange through four neighbours
-  return -y[i] * (t - 1.0) * (t - 2.0) * (t - 3.0) / 6.0 + y[i + 1] * t * (t - 2.0) * (t - 3.0) / 2.0 -
-         y[i + 2] * t * (t - 1.0) * (t - 3.0) / 2.0 + y[i + 3] * t * (t - 1.0) * (t - 2.0) / 6.0;
+  return -y[i] * (t - 1.0) * (t - 2.0) * (t - 3.0) / 6.0 +
+         y[i + 1] * t * (t - 2.0) * (t - 3.0) / 2.0 - y[i + 2] * t * (t - 1.0) * (t - 3.0) / 2.0 +
+         y[i + 3] * t * (t - 1.0) * (t - 2.0) / 6.0;
 }
 
 double EfficiencyCurve::secant(bool forward, double from, double to) const {

@@ -26,8 +26,8 @@ class EfficiencyCurve {
   std::vector<double> forward_, backward_;
 };
 
-/// What was asked of an efficiency's curve last: where the friction is that of the row before, as it mostly
-/// is, it is computed once. Not for several threads.
+/// What was asked of an efficiency's curve last: where the friction is that of the row before, as
+/// it mostly is, it is computed once. Not for several threads.
 class LastEfficiency {
  public:
   explicit LastEfficiency(bool forward) : forward_(forward) {}

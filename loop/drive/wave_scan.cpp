@@ -15,10 +15,10 @@ namespace {
 
 using namespace drive_effects;
 
-constexpr double kHighestOfParts = 14.0;  ///< order
-constexpr double kStepOfTurns = 0.35;     ///< of the order: an input's turn over the whole run
-constexpr double kMostPartTerms = 6e6;    ///< rows times orders
-constexpr int kBinsOfParts = 10;          ///< of as many rows each
+constexpr double kHighestOfParts = 14.0;     ///< order
+constexpr double kStepOfTurns = 0.35;        ///< of the order: an input's turn over the whole run
+constexpr double kMostPartTerms = 6e6;       ///< rows times orders
+constexpr int kBinsOfParts = 10;             ///< of as many rows each
 constexpr Eigen::Index kOrdersAtOnce = 512;  ///< orders at once
 
 /// A row in the noise's units: what is left of it, and how much a wave of 1 N m moves it.
@@ -153,16 +153,16 @@ class PartScan {
     }
     if (parted.place.empty()) return;
     for (const double share : parted.share)
-      parted.bin.push_back(static_cast<int>(
-          std::upper_bound(parted.place.begin(), parted.place.end(), share) - parted.place.begin()));
+      parted.bin.push_back(
+          static_cast<int>(std::upper_bound(parted.place.begin(), parted.place.end(), share) -
+                           parted.place.begin()));
     parted_.push_back(std::move(parted));
   }
 
   /// Of orders from one on: sums of every bin, direction and size.
   void ask_block() {
     const Eigen::Index lines = std::min(kOrdersAtOnce, lines_ - first_line_);
-    for (const double how :
-         {double(kWaveEven), double(kWaveWithLoad), double(kWaveWithSpeed)}) {
+    for (const double how : {double(kWaveEven), double(kWaveWithLoad), double(kWaveWithSpeed)}) {
       for (const Parted& parted : parted_) {
         if (how == double(kWaveWithSpeed) && &parted != &parted_.front()) continue;
         sum_bins(parted, how, lines);

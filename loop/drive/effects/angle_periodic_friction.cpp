@@ -43,7 +43,8 @@ DriveFamily angle_periodic_friction() {
     }
     return shapes;
   };
-  // Jaws of a coupling, poles, screws: any whole order of the input's shaft, once a spectrum shows it.
+  // Jaws of a coupling, poles, screws: any whole order of the input's shaft, once a spectrum shows
+  // it.
   f.shapes_at_order = [](const DriveContext& context, double order) {
     constexpr double kLeastOrder = 3.0, kNear = 0.25;
     const double whole = std::round(order);

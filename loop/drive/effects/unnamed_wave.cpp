@@ -76,7 +76,8 @@ std::vector<Parameter> wave_figures(const DriveContext& context, const DriveShap
     figures.push_back(figure_of("period_rows", rows_of_run(context) / s[kWaveOrder]));
   else
     figures.push_back(figure_of("order", s[kWaveOrder]));
-  if (reads(s)) figures.push_back(figure_of("reads_more_nm", std::abs(amount) * context.model.ratio));
+  if (reads(s))
+    figures.push_back(figure_of("reads_more_nm", std::abs(amount) * context.model.ratio));
   if (is_of_part(s)) figures.push_back(figure_of_place(context, s));
   return figures;
 }
@@ -94,7 +95,8 @@ WaveWords words_of_size(const DriveShape& s) {
     return {", that grows with the temperature from nothing at the lowest", " at the highest"};
   if (s[kWaveHow] == double(kWaveWithCold))
     return {", that dies away with the temperature to nothing at the highest", " at the lowest"};
-  if (s[kWaveHow] == double(kWaveGrows)) return {", that grows over the run from nothing", " at its end"};
+  if (s[kWaveHow] == double(kWaveGrows))
+    return {", that grows over the run from nothing", " at its end"};
   return {};
 }
 
@@ -135,9 +137,8 @@ std::string wave_told(const DriveContext& context, const DriveShape& s, double a
          (one_direction ? direction_in_words(s[kWaveDirection]) : "") + words_of_size(s).follows +
          (is_of_part(s) ? part_in_words(s, figures.back()) : "") + where +
          (turns_over ? " above it, least there below" : "") + ": " + size + words_of_size(s).at +
-         (one_direction
-              ? ", and nothing" + direction_in_words(s[kWaveDirection] == 1.0 ? 2.0 : 1.0)
-              : "") +
+         (one_direction ? ", and nothing" + direction_in_words(s[kWaveDirection] == 1.0 ? 2.0 : 1.0)
+                        : "") +
          (reads(s) ? kNoLoss : "");
 }
 
@@ -169,9 +170,11 @@ std::vector<DriveShape> places_near(const DriveContext& context, const DriveShap
     shares.push_back(share_for_wave(context, p, about[kWaveOver]));
   std::sort(shares.begin(), shares.end());
   const auto n = static_cast<std::ptrdiff_t>(shares.size());
-  const auto at = std::upper_bound(shares.begin(), shares.end(), about[kWavePlace]) - shares.begin();
+  const auto at =
+      std::upper_bound(shares.begin(), shares.end(), about[kWavePlace]) - shares.begin();
   std::vector<DriveShape> shapes;
-  for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(1, at - kRows); k < std::min(n, at + kRows); ++k) {
+  for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(1, at - kRows); k < std::min(n, at + kRows);
+       ++k) {
     const double low = shares[static_cast<std::size_t>(k - 1)],
                  high = shares[static_cast<std::size_t>(k)];
     if (!(high > low)) continue;
@@ -221,8 +224,8 @@ DriveFamily wave_of_sizes(bool of_part) {
                : wave_in_words(model, s[kWaveOrder]) + words_of_size(s).follows;
   };
   f.term_shapes = [](const DriveShape& s) {
-    return std::vector<DriveShape>{{s[kWaveHow] == double(kWaveWithLoad) ? 1.0 : 0.0, 0.0, 0.0, 0.0,
-                                    reads(s) ? 1.0 : 0.0}};
+    return std::vector<DriveShape>{
+        {s[kWaveHow] == double(kWaveWithLoad) ? 1.0 : 0.0, 0.0, 0.0, 0.0, reads(s) ? 1.0 : 0.0}};
   };
   return f;
 }
@@ -238,13 +241,13 @@ DriveFamily unnamed_wave() {
 DriveFamily unnamed_part_wave() {
   DriveFamily f = wave_of_sizes(true);
   f.shape_names.insert(f.shape_names.end(), {"over", "place", "side"});
-  f.shape_values.insert(
-      f.shape_values.end(),
-      {{},
-       {.continuous = true, .is_place = true, .reach = 0.02, .limits = [](const DriveContext&) {
-          return std::pair(0.0, 1.0);
-        }},
-       {}});
+  f.shape_values.insert(f.shape_values.end(),
+                        {{},
+                         {.continuous = true,
+                          .is_place = true,
+                          .reach = 0.02,
+                          .limits = [](const DriveContext&) { return std::pair(0.0, 1.0); }},
+                         {}});
   f.preference = 8;
   f.dearer = kDearerForms;
   f.falls_in_steps = true;
