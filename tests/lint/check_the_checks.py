@@ -8,6 +8,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import check_bindings
 import check_layers
 import check_locale
 import check_names
@@ -189,6 +190,26 @@ class Surveys(Tree):
         for campaign in ("trueflank_campaign(loop Others.*:Places.*)",
                          "set(surveys\n  Others\n  Places)\ntrueflank_campaign(loop ${surveys})"):
             self.assertEqual(self.complaints(campaign), [])
+
+
+class Bindings(Tree):
+    def complaints(self, body):
+        self.write("base/x.cpp", LICENCE + "void f() {\n" + body + "}\n", listed=False)
+        return [c.split(": ")[0] + " " + c.split()[-1] for c in check_bindings.check(self.root)]
+
+    def test_what_a_lambda_takes_is_found(self):
+        self.assertEqual(self.complaints("const auto [low, high] = ends();\nask([&](double x) { return x > low; });\n"), ["base/x.cpp:4 low"])
+        self.assertEqual(self.complaints("for (const auto& [key, of] : all)\n  ask([=] { return of.size(); });\n"), ["base/x.cpp:4 of"])
+        self.assertEqual(self.complaints("for (auto& [key, of] : all) {\n  return [&] { return key; };\n}\n"), ["base/x.cpp:4 key"])
+
+    def test_what_it_does_not_take_passes(self):
+        for body in ("const auto [a, b] = g();\nask([&, b = b] { return b; });\n",
+                     "ask([&] {\n  const auto [a, b] = g();\n  return a;\n});\n",
+                     "const auto [a, b] = g();\nask([&](int a) { return a; });\nrow[a] = 1;\n",
+                     "const auto [a, b] = g();\nask([&] { return of.a + b::c; });\n",
+                     "const auto [a, b] = g();\nask([&] {\n  const auto& [a, c] = h;\n  return a;\n});\n",
+                     "for (const auto& [a, b] : all) h(a);\nfor (double a : more) ask([&] { return a; });\n"):
+            self.assertEqual(self.complaints(body), [], body)
 
 
 class Recipe(Tree):
