@@ -1,16 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The lint tests themselves: each rule broken once in a small tree must be found, and nothing else."""
+import json
 import pathlib
 import sys
 import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import check_bindings
 import check_layers
 import check_locale
 import check_names
 import check_nodiscard
+import check_recipe
 import check_surveys
 
 LICENCE = "// SPDX-License-Identifier: GPL-3.0-or-later\n"
@@ -187,6 +190,59 @@ class Surveys(Tree):
         for campaign in ("trueflank_campaign(loop Others.*:Places.*)",
                          "set(surveys\n  Others\n  Places)\ntrueflank_campaign(loop ${surveys})"):
             self.assertEqual(self.complaints(campaign), [])
+
+
+class Bindings(Tree):
+    def complaints(self, body):
+        self.write("base/x.cpp", LICENCE + "void f() {\n" + body + "}\n", listed=False)
+        return [c.split(": ")[0] + " " + c.split()[-1] for c in check_bindings.check(self.root)]
+
+    def test_what_a_lambda_takes_is_found(self):
+        self.assertEqual(self.complaints("const auto [low, high] = ends();\nask([&](double x) { return x > low; });\n"), ["base/x.cpp:4 low"])
+        self.assertEqual(self.complaints("for (const auto& [key, of] : all)\n  ask([=] { return of.size(); });\n"), ["base/x.cpp:4 of"])
+        self.assertEqual(self.complaints("for (auto& [key, of] : all) {\n  return [&] { return key; };\n}\n"), ["base/x.cpp:4 key"])
+
+    def test_what_it_does_not_take_passes(self):
+        for body in ("const auto [a, b] = g();\nask([&, b = b] { return b; });\n",
+                     "ask([&] {\n  const auto [a, b] = g();\n  return a;\n});\n",
+                     "const auto [a, b] = g();\nask([&](int a) { return a; });\nrow[a] = 1;\n",
+                     "const auto [a, b] = g();\nask([&] { return of.a + b::c; });\n",
+                     "const auto [a, b] = g();\nask([&] {\n  const auto& [a, c] = h;\n  return a;\n});\n",
+                     "for (const auto& [a, b] : all) h(a);\nfor (double a : more) ask([&] { return a; });\n"):
+            self.assertEqual(self.complaints(body), [], body)
+
+
+class Recipe(Tree):
+    MAKEFILE = ("JOBS ?= 2\ntest:\n\t@scripts/install-dependencies build\n\t@cmake --preset release -DX=ON\n"
+                "\t@cmake --build --preset release -j $(JOBS) --target fuzzers\n\t@ctest --preset release; days=$$?; \\\n\t  exit $$days\n")
+
+    def complaints(self, *steps, makefile=MAKEFILE):
+        preset = [{"name": "release"}, {"name": "base", "hidden": True}]
+        self.write("CMakePresets.json", json.dumps({"configurePresets": preset, "buildPresets": preset, "testPresets": preset}), listed=False)
+        self.write("fuzz/CMakeLists.txt", "add_custom_target(fuzzers)\n", listed=False)
+        self.write("scripts/packages-build.txt", "make\n", listed=False)
+        self.write("scripts/install-dependencies", "#!/bin/sh\n", listed=False)
+        (self.root / "scripts/install-dependencies").chmod(0o755)
+        self.write("Makefile", makefile, listed=False)
+        self.write("docs/ci/github-actions.yml", "".join(f"      - run: {step}\n" for step in steps), listed=False)
+        return check_recipe.check(self.root)
+
+    def test_steps_that_exist_pass(self):
+        self.assertEqual(self.complaints("scripts/install-dependencies build && apt-get install -y clang-14", "make test JOBS=4",
+                                         "cmake --preset release -B b && cmake --build b --target fuzzers"), [])
+
+    def test_steps_that_do_not_are_found(self):
+        for step, part in (("make tset", "no tset"), ("make test MINUTES=1", "no MINUTES"), ("cmake --preset relaese", "no preset relaese"),
+                           ("ctest --preset base", "no preset base"), ("cmake --build b --target fuzzer", "no target fuzzer"),
+                           ("scripts/instal-dependencies", "no program"), ("scripts/install-dependencies test", "no list"),
+                           ("mkae test", "what is mkae")):
+            found = self.complaints(step)
+            self.assertEqual(len(found), 1, (step, found))
+            self.assertIn(part, found[0])
+
+    def test_lines_of_the_makefile_are_looked_at(self):
+        found = self.complaints(makefile=self.MAKEFILE.replace("ctest --preset release", "ctest --preset asan"))
+        self.assertEqual(found, ["Makefile: no preset asan for ctest"])
 
 
 if __name__ == "__main__":

@@ -181,7 +181,7 @@ DriveFamily unnamed_moving_hump() {
     return shapes;
   };
   f.kind = [](const DriveShape& s) { return static_cast<int>(s[kMovingOver]); };
-  f.all_shapes = [kLeastHalf, kMostHalf](const DriveContext& context, const DriveShape* about) {
+  f.all_shapes = [](const DriveContext& context, const DriveShape* about) {
     std::vector<DriveShape> shapes;
     if (about == nullptr) return shapes;
     for (const double place : growing_steps(context, 0.003, 0.05))

@@ -18,7 +18,7 @@ namespace {
 
 /// Shape values: by how many teeth each cut lies on from the last one; the first tooth; opposite on
 /// the flanks; within how many cuts the drift levels off (0: it is even).
-enum CutOrder : std::size_t { kStep, kFirstTooth, kOppositeFlanks, kWithin };
+enum CutOrder : std::size_t { kTeethOn, kFirstTooth, kOppositeFlanks, kWithin };
 
 /// How many cuts one tooth lies on from the tooth before it; the step and the number of teeth have
 /// no common divisor.
@@ -58,7 +58,7 @@ EffectFamily unnamed_cut_order() {
                              {"step_teeth", "first_tooth", "opposite_flanks", "within_cuts"});
   set_columns(f, {[](const FlankGeometry& g, int tooth, const EffectShape& shape, double* factor) {
                     factor[0] = drift_at(g.teeth(),
-                                         cut_of(g.teeth(), static_cast<int>(shape[kStep]),
+                                         cut_of(g.teeth(), static_cast<int>(shape[kTeethOn]),
                                                 teeth_since(g, tooth, shape[kFirstTooth])),
                                          shape[kWithin]);
                   },
@@ -81,7 +81,7 @@ EffectFamily unnamed_cut_order() {
                  number("within_cuts")};
   f.words = [](const ToldForm& told) {
     const EffectShape& shape = told.shape;
-    const int z = told.geometry.teeth(), step = static_cast<int>(shape[kStep]),
+    const int z = told.geometry.teeth(), step = static_cast<int>(shape[kTeethOn]),
               first = static_cast<int>(shape[kFirstTooth]);
     const bool aside = shape[kOppositeFlanks] != 0.0;
     const int sign = told.sign();

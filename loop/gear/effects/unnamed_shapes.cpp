@@ -205,9 +205,9 @@ EffectFamily unnamed_rise() {
       });
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     // Longer ones, at both ends, are nearly a parabola: a crowning.
-    constexpr double kLongest = 0.2;
+    constexpr double kLongestAtBoth = 0.2;
     const auto fits = [&](double length_mm) {
-      return shape[2] != kBothEnds || length_mm <= kLongest * std::abs(range_mm(g, shape[0]));
+      return shape[2] != kBothEnds || length_mm <= kLongestAtBoth * std::abs(range_mm(g, shape[0]));
     };
     std::vector<EffectShape> shapes;
     for (const double times : {0.7, 0.85, 0.95, 1.05, 1.18, 1.43})

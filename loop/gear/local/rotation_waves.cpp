@@ -353,7 +353,9 @@ RotationWave likeliest_rotation_wave(const FlankGeometry& geometry, const Observ
       of_both = likeliest(sums[1], few, [&](int order) {
         return p_of_both(sums[1], sums[-1], order, geometry.teeth());
       });
-    for (const auto& [side, of_side] : sums) {
+    for (const auto& of : sums) {
+      const int side = of.first;  // (clang 14 hands no structured binding to a lambda)
+      const SumsOfTraces& of_side = of.second;
       RotationWave wave = likeliest(of_side, few, [&](int order) {
         return p_of_order(of_side, order, geometry.teeth(), few);
       });

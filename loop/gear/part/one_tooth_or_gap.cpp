@@ -160,8 +160,9 @@ bool tell_gap(PartModel& model) {
     std::vector<Effect> forms;
     // (of one wall that stands out: the other must do so, too; runout that denies the wall is none)
     constexpr double kAlike = 0.35;
-    const auto [lower, upper] = walls_without(model, gap, walls);
+    const auto without = walls_without(model, gap, walls);
     const auto is_borne_out = [&](double sign) {
+      const auto& [lower, upper] = without;
       return walls.size() > 1 ||
              sign * lower * upper > kAlike * std::max(lower * lower, upper * upper);
     };
