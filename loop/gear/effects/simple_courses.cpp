@@ -223,7 +223,7 @@ std::string FlankCourse::words(const FlankGeometry& g, double face) const {
     case kBand:
       return "about " + where + ", " + within(g, face, half_mm, "", " to either side");
     case kSwells:
-      return "coming and going, " + within(g, face, 2.0 * half_mm, "every ", ", most ") + where;
+      return "coming and going, " + within(g, face, 2.0 * half_mm, "every ", ", most at ") + where;
     case kVee:
       return "more and more evenly from " + where + " on to both sides";
     case kBow:

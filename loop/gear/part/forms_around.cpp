@@ -185,8 +185,13 @@ std::vector<RemainderFinding> forms_around(const PartModel& model, const CourseO
                                            int teeth) {
   constexpr std::size_t kMost = 2;
   const auto [rest, beside] = beside_forms(model, course);
-  const std::vector<std::vector<Effect>> sets =
-      forms_from_tooth_to_tooth(model.geometry.teeth(), course);
+  std::vector<std::vector<Effect>> sets = forms_from_tooth_to_tooth(model.geometry.teeth(), course);
+  if (course.profile == 0.0 && course.face == 0.0)
+    for (const auto& [flank, opposite] :
+         {std::pair(FlankChoice::kBoth, 0.0), std::pair(FlankChoice::kBoth, 1.0),
+          std::pair(FlankChoice::kLeft, 0.0), std::pair(FlankChoice::kRight, 0.0)})
+      sets.push_back(slips_around(model.geometry.teeth(), flank, opposite));
+  std::erase_if(sets, [](const std::vector<Effect>& set) { return set.empty(); });
   constexpr std::size_t kMovedEach = 4;  // and where each could come to
   std::size_t tried = 0;
   // (forms of which there are far more are no looks of the others)

@@ -50,7 +50,7 @@ std::vector<Effect> strips(const FlankGeometry& geometry, double face, FlankChoi
 
 std::vector<Effect> forms_along(const FlankGeometry& geometry, double face, FlankChoice flank,
                                 bool bands) {
-  constexpr double kFirst = 0.1, kStep = 0.1, kNearBothEnds = 0.65, kRoof = 0.25;
+  constexpr double kFirst = 0.1, kStep = 0.1, kNearBothEnds = 0.65;
   const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
   const double range_mm = face != 0.0 ? geometry.face_width_mm() : std::abs(high - low);
   std::vector<Effect> forms;
@@ -65,9 +65,6 @@ std::vector<Effect> forms_along(const FlankGeometry& geometry, double face, Flan
         forms.push_back({find_family(family), flank, {face, at, end}});
     if (share > kNearBothEnds)
       forms.push_back({find_family("unnamed_bend"), flank, {face, at, 0.0}});
-    // (a roof; one that leans far is a kink)
-    if (bands && std::abs(share - 0.5) < kRoof)
-      forms.push_back({find_family("unnamed_kink"), flank, {face, at, 0.0}});
     if (bands)
       for (const double width : {0.1, 0.2, 0.35})
         forms.push_back({find_family("unnamed_band"), flank, {face, at, width * range_mm}});
@@ -75,6 +72,14 @@ std::vector<Effect> forms_along(const FlankGeometry& geometry, double face, Flan
   if (bands)
     for (Effect& strip : strips(geometry, face, flank)) forms.push_back(std::move(strip));
   return forms;
+}
+
+std::vector<Effect> roofs_along(const FlankGeometry& geometry, double face, FlankChoice flank) {
+  std::vector<Effect> roofs;
+  for (const double share : {0.3, 0.4, 0.5, 0.6, 0.7})  // (one that leans far is a kink)
+    roofs.push_back(
+        {find_family("unnamed_kink"), flank, {face, place_at(geometry, face, share), 0.0}});
+  return roofs;
 }
 
 std::vector<Effect> sags_along(const FlankGeometry& geometry, double face, FlankChoice flank) {
@@ -301,16 +306,6 @@ void add_of_some_teeth(int z, const CourseOverFlanks& course, FlankChoice flank,
   sets.push_back(std::move(stairs));
 }
 
-/// What slips over some teeth, and stays so up to the last tooth of the gear, to start from.
-std::vector<Effect> slips(int teeth, FlankChoice flank, double opposite) {
-  constexpr double kFewest = 2.0, kStays = 3.0;
-  std::vector<Effect> forms;
-  for (double over = kFewest; over < 0.6 * teeth; over = std::ceil(1.4 * over))
-    for (double first = 2.0; first + over + kStays <= teeth + 1.0; first += 1.0)
-      forms.push_back({find_family("unnamed_slip"), flank, {first, over, 1.0, opposite}});
-  return forms;
-}
-
 /// Drifts from cut to cut of teeth that are not cut one beside the other.
 std::vector<Effect> cut_orders(int z, FlankChoice flank, double opposite) {
   constexpr int kMostSteps = 40;
@@ -412,7 +407,6 @@ std::vector<std::vector<Effect>> forms_from_tooth_to_tooth(int teeth,
       add_beginning(teeth, course, flank, opposite, sets);
       add_of_some_teeth(teeth, course, flank, opposite, sets);
       if (heights) add_repeating(teeth, flank, opposite, sets);
-      if (heights) sets.push_back(slips(teeth, flank, opposite));
       if (heights)
         for (int number = 2; number <= kMostSectors; ++number)
           sets.push_back(sectors_around(teeth, flank, opposite, number));
@@ -462,6 +456,15 @@ Effect s_over(int face, FlankChoice flank) {
 std::vector<Effect> forms_and_s_along(const FlankGeometry& geometry, int face, FlankChoice flank) {
   std::vector<Effect> forms = forms_along(geometry, face, flank, true);
   forms.push_back(s_over(face, flank));
+  return forms;
+}
+
+std::vector<Effect> slips_around(int teeth, FlankChoice flank, double opposite) {
+  constexpr double kFewest = 2.0, kStays = 3.0;
+  std::vector<Effect> forms;
+  for (double over = kFewest; over < 0.6 * teeth; over = std::ceil(1.4 * over))
+    for (double first = 2.0; first + over + kStays <= teeth + 1.0; first += 1.0)
+      forms.push_back({find_family("unnamed_slip"), flank, {first, over, 1.0, opposite}});
   return forms;
 }
 

@@ -466,6 +466,9 @@ void tell_as_one_form(PartModel& model) {
         return true;
     }
     std::vector<Effect> forms = forms_along(model.geometry, face, flank, set.size() > 1);
+    if (set.size() > 1)
+      for (Effect& roof : roofs_along(model.geometry, face, flank))
+        forms.push_back(std::move(roof));
     // (A bow and a slope alone are two names, and a sag a little off.)
     constexpr int kValuesOfSag = 3;
     if (values(set) >= kValuesOfSag)
