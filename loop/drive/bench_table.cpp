@@ -341,14 +341,20 @@ PowerGained power_gained(const std::vector<BenchPoint>& points, double ratio,
     const double units = static_cast<double>(cell.units.size());
     const double error = std::sqrt(spread * units / (units - 1.0)) / cell.count;
     if (mean < 4.5 * error || cell.excess < 2e-3 * cell.taken) continue;
-    gained.text = printed(
-        "%s, the apparent efficiency at %s load is %.3f (+-%.3f): no gearbox delivers more than it "
-        "takes",
-        std::get<0>(key) ? "forward" : "backward",
-        std::get<1>(key) <= 1   ? "low"
-        : std::get<1>(key) <= 3 ? "middle"
-                                : "high",
-        1.0 + cell.excess / cell.taken, 2.0 * error * cell.count / cell.taken);
+    const char* direction = std::get<0>(key) ? "forward" : "backward";
+    const char* load = std::get<1>(key) <= 1 ? "low" : std::get<1>(key) <= 3 ? "middle" : "high";
+    constexpr double kNothing = 0.01;  // of what comes out: a ratio to it says nothing
+    gained.text =
+        cell.taken > kNothing * cell.excess
+            ? printed(
+                  "%s, the apparent efficiency at %s load is %.3f (+-%.3f): no gearbox delivers "
+                  "more than it takes",
+                  direction, load, 1.0 + cell.excess / cell.taken,
+                  2.0 * error * cell.count / cell.taken)
+            : printed(
+                  "%s, at %s load %.3g (+-%.2g) N m come out where next to nothing goes in: no "
+                  "gearbox delivers more than it takes",
+                  direction, load, mean, 2.0 * error);
     gained.file = std::get<2>(key);
   }
   return gained;

@@ -7,6 +7,7 @@
 
 #include "tests/loop/sample_bench.h"
 #include "trueflank/design/kinds/train_kind.h"
+#include "trueflank/loop/drive/bench_table.h"
 
 namespace trueflank::test {
 namespace {
@@ -117,6 +118,24 @@ TEST(BenchFile, ASensorsMinusIsTakenAsItsConventionAndTold) {
   ASSERT_TRUE(closed);
   EXPECT_EQ(closed->result.verdict, loop::Verdict::kNoEffect);
   EXPECT_THAT(loop::loop_text(closed->result), HasSubstr("sign convention"));
+}
+
+TEST(BenchFile, PowerThatComesFromNothingIsToldInNewtonMetresAndNotAsARatio) {
+  std::vector<loop::BenchPoint> points(7);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i].forward = true;
+    points[i].unit = static_cast<int>(i);
+    points[i].load_nm = points[i].driven_nm = 5.0 + 0.02 * static_cast<double>(i);
+  }
+  points.back().load_nm = 100.0;  // (the others are low loads)
+  EXPECT_THAT(
+      loop::power_gained(points, 4.0, {}).text,
+      testing::StartsWith(
+          "forward, at low load 5.05 (+-0.031) N m come out where next to nothing goes in"));
+  for (loop::BenchPoint& point : points) point.driving_nm = 0.25;
+  EXPECT_THAT(
+      loop::power_gained(points, 4.0, {}).text,
+      testing::StartsWith("forward, the apparent efficiency at low load is 5.050 (+-0.031)"));
 }
 
 TEST(BenchFile, SwappedColumnsAreNamedAndPutRight) {
