@@ -38,6 +38,17 @@ TEST(FormForAName, PlatingThatGrowsAtTheTipIsNoPressureAngle) {
   }
 }
 
+// Of so many points forms are sought on some of them, and judged by all.
+TEST(FormForAName, EndsThatABrushRoundsAreNoCrowningInALargeScan) {
+  const MadeGear gear = spur(23);
+  const auto made = grown([](const MadeGear& g, const FlankSpot& s, auto&) {
+    return -6.0 * std::exp(-0.5 * g.face_mm * (1.0 - std::abs(s.v)) / 1.2);
+  });
+  const auto result = close(gear, scan_of(gear, {made}, scanned(330000, 12.0, 3)), true);
+  EXPECT_EQ(find(result, "crowning"), nullptr) << list(result);
+  EXPECT_TRUE(tells(result, "towards both ends")) << list(result);
+}
+
 TEST(FormForAName, WhatTheNamesSayKeepsThem) {
   for (const unsigned seed : {1U, 2U, 3U, 4U}) {
     const auto crowned = grown([](auto&, const FlankSpot& s, auto&) { return -7.0 * s.v * s.v; });

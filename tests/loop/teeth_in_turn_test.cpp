@@ -46,6 +46,23 @@ TEST(TeethInTurn, ARidgeOfOneToothInSoManyIsOneForm) {
   }
 }
 
+// Starts of a hob that are ground unlike: as often a turn as a gear that is out of round 14 times.
+TEST(TeethInTurn, SlopesThatComeAgainEveryThreeTeethAreNoLobes) {
+  const MadeGear gear = spur(42);
+  const auto made = grown([](auto&, const FlankSpot& s, auto&) {
+    constexpr double kSlopes_um[] = {-2.8, 4.3, -1.5};
+    return 0.5 * kSlopes_um[s.tooth % 3] * s.u;
+  });
+  InspectionOptions options;
+  options.noise_um = 0.6;
+  options.points = 50;
+  options.helix = options.index = false;
+  const auto result = close(gear, inspection_of(gear, {made}, options));
+  EXPECT_EQ(find(result, "lobing"), nullptr) << list(result);
+  EXPECT_TRUE(tells(result, "one tooth in 3, from tooth 1 on, leans over the profile"))
+      << list(result);
+}
+
 // A spot that profile and helix traces cross on one flank of every fifth tooth; the same in a scan.
 TEST(TeethInTurn, ASpotOfOneToothInSoManyIsOneForm) {
   const MadeGear gear = spur(34);

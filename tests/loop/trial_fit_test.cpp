@@ -203,12 +203,24 @@ TEST_F(TrialFits, OneFitKnowsTheSquareWithoutAnyOfItsEffects) {
   EXPECT_NEAR(fit.residual_square({false, false, false}) / square({}), 1.0, 1e-9);
 }
 
-TEST_F(TrialFits, AFormOfAScanIsNotPutInThePlaceOfAnother) {
-  const std::vector<Effect> effects{wave(3.3), wave(1.7)};
-  loop::TrialFit fit(geometry_, table_, patches_, effects);
-  EXPECT_FALSE(fit.put_effect(1, wave(2.0)));
-  EXPECT_TRUE(fit.put_effect(1, wave(1.7)));  // (it stands there)
-  EXPECT_EQ(fit.effects(), effects);
+TEST_F(TrialFits, AFormOfAScanPutInThePlaceOfAnotherIsAsFromTheBeginning) {
+  const loop::FlankCells others{32, 32};
+  for (const loop::FlankCells cells : {loop::FlankCells{}, loop::FlankCells{1, 600}}) {
+    loop::TrialFit fit(geometry_, table_, patches_, {wave(3.3), wave(1.7)}, 1, cells);
+    EXPECT_FALSE(fit.put_effect(1, wave(2.0), others));
+    EXPECT_FALSE(fit.put_effect(0, wave(2.0), cells));  // (it is not the last)
+    EXPECT_EQ(fit.effects()[1], wave(1.7));
+    ASSERT_TRUE(fit.put_effect(1, wave(2.0), cells));
+    const std::vector<Effect> now{wave(3.3), wave(2.0)};
+    EXPECT_EQ(fit.effects(), now);
+    const loop::TrialFit anew(geometry_, table_, patches_, now, 1, cells);
+    EXPECT_EQ(fit.residual_square(), anew.residual_square());
+    EXPECT_EQ(fit.coefficients(1), anew.coefficients(1));
+    const std::vector<loop::EffectShape> shapes{{1.0, 2.2}, {1.0, 3.1}};
+    for (std::size_t i = 0; i < shapes.size(); ++i)
+      EXPECT_EQ(fit.with_shapes(1, shapes, 1e300)[i].square,
+                anew.with_shapes(1, shapes, 1e300)[i].square);
+  }
 }
 
 TEST_F(TrialFits, TwoWavesDoNotMeetAtOneLength) {

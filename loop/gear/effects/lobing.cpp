@@ -25,7 +25,10 @@ EffectFamily lobing() {
   f.shape_names = {"order"};
   f.form = ParameterForm::kWave;
   f.shapes = [](const FlankGeometry& g) {
-    return whole_numbers(2, std::min(16, (g.teeth() - 1) / 2));
+    // (what comes again every two or three teeth is a pattern of teeth, as of the starts of a hob)
+    constexpr int kMost = 16, kTeethOfLobe = 3;
+    const int most = std::max((g.teeth() - 1) / kTeethOfLobe, std::min(2, (g.teeth() - 1) / 2));
+    return whole_numbers(2, std::min(kMost, most));
   };
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = c[1] = 0.0;

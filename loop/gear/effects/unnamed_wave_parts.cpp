@@ -52,6 +52,12 @@ std::string waves(const ToldForm& told) {
          long_each(told.shape[0], told.shape[1]);
 }
 
+/// Of a burst at least two waves are seen: what dies away sooner is a groove or a ridge.
+bool is_burst(const EffectShape& shape) {
+  constexpr double kFewestInHalf = 0.75;
+  return shape[3] >= kFewestInHalf * shape[1];
+}
+
 }  // namespace
 
 /// Over the profile, mirrored on the two flanks: a tool that runs out cuts one flank of a tooth in
@@ -186,6 +192,7 @@ EffectFamily unnamed_waves_burst() {
     for (const double times : kTimes)
       if (times * shape[3] <= kWidest * std::abs(range_mm(g, shape[0])))
         shapes.push_back({shape[0], shape[1], shape[2], times * shape[3]});
+    std::erase_if(shapes, [](const EffectShape& beside) { return !is_burst(beside); });
     return shapes;
   };
   f.words = [](const ToldForm& told) {
@@ -262,11 +269,11 @@ std::vector<Effect> parts_of_waves(const FlankGeometry& geometry, double face, F
     for (const double share : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9})
       for (const double half : {0.09, 0.15, 0.25}) {
         const double at = low + share * range;
-        parts.push_back({find_family("unnamed_waves_burst"),
-                         flank,
-                         {face, times * wavelength_mm,
+        EffectShape shape{face, times * wavelength_mm,
                           face != 0.0 ? at : 2.0 * geometry.on_flank(1, 1, at, 0.0).radius_mm,
-                          half * std::abs(range)}});
+                          half * std::abs(range)};
+        if (is_burst(shape))
+          parts.push_back({find_family("unnamed_waves_burst"), flank, std::move(shape)});
       }
   for (const double times : {0.75, 0.85, 0.93, 1.0, 1.08, 1.18, 1.33})
     for (const double change : {-0.5, -0.35, -0.2, -0.1, 0.1, 0.2, 0.35, 0.5})

@@ -503,7 +503,7 @@ bool tell_as_views(PartModel& model) {
   constexpr double kClearly = 25.0;  // chi-square
   if (model.table->points_mm.empty()) return false;
   Indices all, names;
-  bool around = false;
+  bool around = false, nameless = false;  // (names alone are simpler than lists of values)
   for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
     const Effect& effect = model.effects[e];
     const Runs runs = runs_of(model.geometry, effect, Flanks::kOfEither);
@@ -514,9 +514,10 @@ bool tell_as_views(PartModel& model) {
       continue;
     all.push_back(e);
     around = around || runs == Runs::kOtherwise;
+    nameless = nameless || !effect.family->named;
     if (moves_the_teeth(effect)) names.push_back(e);
   }
-  if (!around || all.size() < 2) return false;
+  if (!around || !nameless || all.size() < 2) return false;
   CheapestAnswer best{.least = cost_of(model, model.effects)};
   for (const Indices& set : with_and_without(all, names)) {
     if (set.size() < 2) continue;
