@@ -71,7 +71,10 @@ class Calibration {
     else if (family.calibrate(taken_, effect.shape, b))
       carried_ = true;
     else
-      leave(family.id + ": the design's [losses] already hold another of its kind with another shape");
+      leave(family.id + ": " +
+            (family.not_carried.empty()
+                 ? "the design's [losses] already hold another of its kind with another shape"
+                 : family.not_carried));
   }
 
   void settle_friction() {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -11,75 +10,18 @@
 
 #include "trueflank/loop/drive/bench_table.h"
 #include "trueflank/loop/drive/drive_model.h"
+#include "trueflank/loop/drive/efficiency_curve.h"
 #include "trueflank/loop/result/effect_facts.h"
 #include "trueflank/loop/result/loop_result.h"
 
 namespace trueflank::loop {
-
-/// Efficiencies of a drive's meshes over their common friction, tabulated once.
-class EfficiencyCurve {
- public:
-  explicit EfficiencyCurve(const DriveModel& model);
-  /// Over the friction of one mesh, the others' as designed.
-  EfficiencyCurve(const DriveModel& model, std::size_t mesh);
-  /// Accuracy: 1e-7 for friction up to 0.6 (cubic between steps of 0.02); beyond, the end's value.
-  [[nodiscard]] double at(bool forward, double friction) const;
-  /// Change per unit of friction, from one to the other; of two that are one the slope.
-  [[nodiscard]] double secant(bool forward, double from, double to) const;
-
- private:
-  std::vector<double> forward_, backward_;
-};
-
-/// What was asked of an efficiency's curve last: where the friction is that of the row before, as it mostly
-/// is, it is computed once. Not for several threads.
-class LastEfficiency {
- public:
-  explicit LastEfficiency(bool forward) : forward_(forward) {}
-  [[nodiscard]] double at(const EfficiencyCurve& curve, double friction) {
-    if (friction != friction_) value_ = curve.at(forward_, friction_ = friction);
-    return value_;
-  }
-  /// Change of the efficiency per unit of friction, from one to the other.
-  [[nodiscard]] double secant(const EfficiencyCurve& curve, double from, double to) {
-    if (from != from_ || to != to_) secant_ = curve.secant(forward_, from_ = from, to_ = to);
-    return secant_;
-  }
-
- private:
-  bool forward_;
-  double friction_ = -1.0, value_ = 0.0;
-  double from_ = -1.0, to_ = -1.0, secant_ = 0.0;
-};
-
-/// Values of one function that were asked last: shapes that are tried ask for the same few at every
-/// row. Not for several threads.
-class LastValues {
- public:
-  template <class Function>
-  [[nodiscard]] double at(double argument, const Function& function) {
-    for (const auto& [known, value] : kept_)
-      if (known == argument) return value;
-    const double value = function(argument);
-    kept_[next_] = {argument, value};
-    next_ = (next_ + 1) % kept_.size();
-    return value;
-  }
-
- private:
-  struct Kept {
-    double argument = kNaN, value = kNaN;
-  };
-  std::array<Kept, 4> kept_ = {};
-  std::size_t next_ = 0;
-};
 
 /// What is found so far of all that changes friction, and of what the sensors misread: about it effects are linear.
 struct DriveState {
   double shift = 0.0;        ///< friction_coefficient less the design's
   double difference = 0.0;   ///< direction_dependent_friction
   double load_value = 0.0, load_exponent = 1.0;     ///< load_dependent_friction
-  double mixed_value = 0.0, mixed_speed_rpm = 1.0;  ///< mixed_friction
+  double mixed_value = 0.0, mixed_speed_rpm = 1.0, mixed_exponent = 2.0;  ///< mixed_friction
   double scale = 1.0;
   double input_zero_nm = 0.0, output_zero_nm = 0.0;    ///< torque_offset
   double input_drift_nm = 0.0, output_drift_nm = 0.0;  ///< torque_drift
@@ -236,6 +178,10 @@ struct DriveFamily : EffectFacts {
   bool jumps_in_run = false;
   /// A wave of another size in every row: asked in place of plain waves of about its order.
   bool is_wave_of_sizes = false;
+  /// A wave of a part of the loads, speeds, temperatures or the run: asked by the spectra of parts.
+  bool is_wave_of_part = false;
+  /// The shapes by which it may be what a spectrum shows at an order; empty: none.
+  std::function<std::vector<DriveShape>(const DriveContext&, double order)> shapes_at_order = {};
   /// The shape of a slow course of the run, a polynomial, that a scan proposes; empty: it takes none.
   std::function<DriveShape(double what, int degree)> shape_of_wander = {};
   /// @}

@@ -84,6 +84,7 @@ DriveOutcome DriveSelection::choose() {
   tell_as_one_place_of_a_turn(outcome);
   follow_the_run(outcome);
   tell_as_whole_forms(outcome);
+  let_held_out_rows_settle_kin(outcome);
   prefer_plainer_names(outcome);
   drop_what_is_nothing(outcome);
   veto(outcome);
@@ -311,8 +312,8 @@ bool DriveSelection::move_state(const DriveOutcome& outcome) {
   const double output_nm = table_.most_load_nm * model_.ratio;
   const bool moved =
       far(&DriveState::shift) || far(&DriveState::difference) || far(&DriveState::load_value) ||
-      far(&DriveState::mixed_value) || far(&DriveState::scale) ||
-      far(&DriveState::input_zero_nm, table_.most_load_nm) ||
+      far(&DriveState::mixed_value) || far(&DriveState::mixed_exponent) ||
+      far(&DriveState::scale) || far(&DriveState::input_zero_nm, table_.most_load_nm) ||
       far(&DriveState::input_drift_nm, table_.most_load_nm) ||
       far(&DriveState::output_zero_nm, output_nm) || far(&DriveState::output_drift_nm, output_nm) ||
       far_of(next.mesh_value, state_.mesh_value);
@@ -332,9 +333,35 @@ bool DriveSelection::propose_wave(const DriveOutcome& outcome) {
         order > 0.0 && std::abs(order - line.order) < 0.5 / std::max(1.0, table_.turns))
       return false;
   const DriveFamily* host = family_with(&DriveFamily::shape_of_wave);
-  candidates_.push_back({host, host->shape_of_wave(line.order, line.opposite)});
-  banned_.push_back(false);
+  const DriveEffect wave{host, host->shape_of_wave(line.order, line.opposite)};
+  const std::vector<DriveEffect> named = names_of_wave(outcome.effects, wave);
+  for (const DriveEffect& name : named) add_candidate(name);
+  if (named.empty()) add_candidate(wave);
   return true;
+}
+
+std::vector<DriveEffect> DriveSelection::names_of_wave(const std::vector<DriveEffect>& beside,
+                                                       const DriveEffect& wave) const {
+  constexpr double kAsWell = 6.6;  // chi-square
+  const DriveContext here = context();
+  const auto square_with = [&](const DriveEffect& effect) {
+    std::vector<DriveEffect> effects = beside;
+    effects.push_back(effect);
+    return DriveFit(here, value_, effects, FitRows::kTraining).residual_square();
+  };
+  const double square = square_with(wave);
+  const double rows = static_cast<double>(table_.points.size());
+  const double noise = square / std::max(1.0, rows - size_of(beside) - 2.0);
+  std::vector<DriveEffect> names;
+  for (const DriveFamily& family : drive_library()) {
+    if (!family.shapes_at_order || !may_be_there(family)) continue;
+    const std::vector<DriveShape> shapes = family.shapes_at_order(here, wave.order());
+    if (std::any_of(shapes.begin(), shapes.end(), [&](const DriveShape& shape) {
+          return square_with({&family, shape}) < square + kAsWell * noise;
+        }))
+      for (const DriveShape& shape : shapes) names.push_back({&family, shape});
+  }
+  return names;
 }
 
 bool DriveSelection::propose_spell(const DriveOutcome& outcome) {

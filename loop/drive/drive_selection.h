@@ -115,6 +115,9 @@ class DriveSelection {
   bool move_state(const DriveOutcome& outcome);
   /// Where the spectrum of what is left has a line that noise would not make: one candidate more.
   bool propose_wave(const DriveOutcome& outcome);
+  /// Effects with a name that do as well as this wave beside others, in all their shapes.
+  [[nodiscard]] std::vector<DriveEffect> names_of_wave(const std::vector<DriveEffect>& beside,
+                                                       const DriveEffect& wave) const;
   /// Where a part of the run, or of every turn of a shaft, differs from the rest more than noise
   /// would: one candidate more. What goes round with the angle, or has no name, may only imitate it
   /// and is left out while it is looked for; a spell that was chosen stays.
@@ -176,6 +179,8 @@ class DriveSelection {
   /// Each of what may be all that a bench holds in place of what was chosen, or beside its names:
   /// told where it leaves clearly less, or does alone what several pieces do.
   void tell_as_whole_forms(DriveOutcome& outcome);
+  /// A kin of a form that leaves the same of the rows seen, and of all rows surely less.
+  void let_held_out_rows_settle_kin(DriveOutcome& outcome);
   /// A form that may be all there is, what it takes off, and how dear the looks for it are
   /// (chi-square).
   struct WholeForm {
@@ -189,8 +194,16 @@ class DriveSelection {
     DriveState state;
   };
   void fill_whole_columns();
+  /// What is left of the price of its looks beside that of what it stands for (chi-square).
+  struct PricedForm;
+  [[nodiscard]] double looks_beyond(const DriveOutcome& outcome, const PricedForm& priced) const;
+  /// True where names that the set does not hold take back in one direction what they do.
+  [[nodiscard]] bool drop_names_that_cancel(const DriveOutcome& outcome, const OneForm& set) const;
   /// True where one was told. `pieces_too`: several pieces may also be two forms.
   bool tell_as_one_whole(DriveOutcome& outcome, bool pieces_too);
+  /// Waves of one direction, or of a part of the range, of which the spectra of parts tell.
+  void add_waves_of_parts(const std::vector<DriveEffect>& base,
+                          std::vector<WholeForm>& forms) const;
   void add_waves_over_the_angle(const std::vector<DriveEffect>& base,
                                 std::vector<WholeForm>& forms) const;
   /// Of places that leave the same of the rows seen those that are locked away say which it is: on

@@ -11,6 +11,7 @@
 #include "trueflank/loop/drive/effects/registry.h"
 #include "trueflank/loop/drive/one_form.h"
 #include "trueflank/loop/drive/place_profile.h"
+#include "trueflank/loop/drive/wave_scan.h"
 
 // What the size of a wave follows, and whether it comes by the angle or by the clock.
 namespace trueflank::loop {
@@ -34,10 +35,10 @@ std::vector<DriveShape> waves_about(const BenchTable& table, double order) {
   constexpr double kOfTheClock = 0.15, kFewestRows = 3.0, kFewestTimes = 2.0, kWarmer = 3.0;
   std::vector<DriveShape> shapes;
   const auto add = [&](double at, double how) {
-    for (const double reads : {0.0, 1.0})
+    for (const double direction : {0.0, drive_effects::kAsItReads})
       for (int phase = 0; phase < kPhases; ++phase)
-        if (reads == 0.0 || (table.has(true) && table.has(false)))
-          shapes.push_back({at, how, reads, static_cast<double>(phase) / kPhases});
+        if (direction == 0.0 || (table.has(true) && table.has(false)))
+          shapes.push_back({at, how, direction, static_cast<double>(phase) / kPhases});
   };
   std::vector<double> sizes{double(drive_effects::kWaveWithLoad), double(drive_effects::kWaveGrows),
                             double(drive_effects::kWaveWithSpeed)};
@@ -111,6 +112,67 @@ void DriveSelection::tell_waves(DriveOutcome& outcome) {
       continue;
     exchange_effects(outcome, best, false);
   }
+}
+
+void DriveSelection::add_waves_of_parts(const std::vector<DriveEffect>& base,
+                                        std::vector<WholeForm>& forms) const {
+  if (!table_.has_angle) return;
+  const auto family_of = [](bool DriveFamily::*which) {
+    return &*std::find_if(drive_library().begin(), drive_library().end(),
+                          [&](const DriveFamily& f) { return f.*which; });
+  };
+  const DriveFamily *sized = family_of(&DriveFamily::is_wave_of_sizes),
+                    *of_part = family_of(&DriveFamily::is_wave_of_part);
+  if (!may_be_there(*sized)) return;
+  const DriveContext here = context();
+  const DriveFit fit(here, value_, base, FitRows::kTraining);
+  const BesideEffects beside(here, value_, base, FitRows::kTraining);
+  for (const PartWave& wave : waves_of_parts(here, value_ - fit.explained_nm())) {
+    const DriveFamily* family = wave.is_of_part ? of_part : sized;
+    DriveEffect effect{family, wave.shape};
+    // (what is plain may have taken some of it)
+    for (int round = 0; round < 2; ++round) {
+      std::vector<DriveEffect> effects = base;
+      effects.push_back(effect);
+      const DriveFit together(here, value_, effects, FitRows::kTraining);
+      effect.shape = finer_part_wave(
+          here,
+          value_ - together.explained_nm() + together.explained_nm(static_cast<int>(base.size())),
+          effect.shape);
+    }
+    forms.push_back({effect, beside.with(effect).gain, cost_of_looks(wave.looks) + family->dearer});
+  }
+}
+
+void DriveSelection::add_waves_over_the_angle(const std::vector<DriveEffect>& base,
+                                              std::vector<WholeForm>& forms) const {
+  constexpr double kSure = 1e-4, kNear = 0.5;
+  if (!table_.has_angle) return;
+  add_waves_of_parts(base, forms);
+  const DriveContext here = context();
+  const DriveFit fit(here, value_, base, FitRows::kTraining);
+  WaveSpectra spectra;
+  const LikeliestOrder line = spectra.likeliest_order(table_, value_ - fit.explained_nm());
+  if (!(line.p_value < kSure)) return;
+  const auto add = [&](const DriveEffect& wave) {
+    std::vector<DriveEffect> effects = base;
+    effects.push_back(wave);
+    const double gain = fit.residual_square() -
+                        DriveFit(here, value_, effects, FitRows::kTraining).residual_square();
+    forms.push_back({wave, gain, cost_of_looks(table_.points.size())});
+  };
+  for (const DriveFamily& family : drive_library())
+    if (family.shape_of_wave && may_be_there(family))
+      add({&family, family.shape_of_wave(line.order, line.opposite)});
+  for (const DriveFamily& family : drive_library())
+    if (family.shapes_at_order && may_be_there(family))
+      for (DriveShape& shape : family.shapes_at_order(here, line.order)) add({&family, shape});
+  for (std::size_t g = 0; g < candidates_.size(); ++g)
+    if (const double order = candidates_[g].order();
+        order > 0.0 && candidates_[g].family->named && !banned_[g] &&
+        may_be_there(*candidates_[g].family) &&
+        std::abs(order - line.order) < kNear / std::max(1.0, table_.turns))
+      add(candidates_[g]);
 }
 
 }  // namespace trueflank::loop

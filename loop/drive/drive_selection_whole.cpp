@@ -30,11 +30,6 @@ bool is_plain_beside_forms(const DriveEffect& effect, bool gains) {
   return f.is_loss && f.preference == 0 && (f.follows == "nothing" || f.follows == "load");
 }
 
-/// Neighbouring shapes do nearly the same: a quarter of them are counted.
-double cost_of_looks(std::size_t shapes) {
-  return 2.0 * std::log(1.0 + 0.25 * static_cast<double>(shapes));
-}
-
 /// Of what falls in steps over its places the best near by.
 DriveEffect nearest_best(const DriveContext& context, const BesideEffects& beside,
                          DriveEffect form) {
@@ -208,7 +203,7 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
                      [](const DriveEffect& e) { return !e.family->named; }) >= kPieces ||
        std::any_of(outcome.effects.begin(), outcome.effects.end(),
                    [](const DriveEffect& e) { return bool(e.family->shape_of_states); }));
-  std::vector<std::pair<OneForm, double>> sets;  // with the cost of looks
+  std::vector<PricedForm> sets;
   double noise = now.square / std::max(1.0, outcome.rows - now.size);
   const auto try_beside = [&](const OneForm& base, double looks_before, bool alone_too) {
     std::vector<DriveEffect> full = base.effects;
@@ -229,7 +224,7 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
         set.from.push_back(-1);
         if (!fits(set) || !covers(set.effects) || !can_show(set.effects.back())) continue;
         noise = std::min(noise, set.square / std::max(1.0, outcome.rows - set.size));
-        sets.emplace_back(std::move(set), looks_before + looks);
+        sets.push_back({std::move(set), looks_before, looks});
       }
     return forms;
   };
@@ -260,10 +255,11 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
   // The likeliest with their shapes free: each was sought beside all that is plain.
   constexpr std::size_t kMostRefined = 14;
   std::stable_sort(sets.begin(), sets.end(), [&](const auto& a, const auto& b) {
-    return a.first.figure(noise) + a.second < b.first.figure(noise) + b.second;
+    return a.set.figure(noise) + a.looks_before + a.looks <
+           b.set.figure(noise) + b.looks_before + b.looks;
   });
   if (sets.size() > kMostRefined) sets.resize(kMostRefined);
-  for (auto& [set, looks] : sets) {
+  for (auto& [set, looks_before, looks] : sets) {
     OneForm refined = set;
     refine_drive_shapes(context(), value_, FitRows::kTraining, refined.effects);
     if (!fits(refined) || refined.square > set.square || !can_show(refined.effects.back()))
@@ -272,9 +268,10 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
     set = std::move(refined);
   }
   std::vector<std::pair<double, const OneForm*>> likeliest;
-  for (const auto& [set, looks] : sets)
-    if (const double figure = set.figure(noise) + looks; figure < now.figure(noise))
-      likeliest.emplace_back(figure, &set);
+  for (const PricedForm& priced : sets)
+    if (const double figure = priced.set.figure(noise) + looks_beyond(outcome, priced);
+        figure < now.figure(noise))
+      likeliest.emplace_back(figure, &priced.set);
   std::stable_sort(likeliest.begin(), likeliest.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   // Where few rows follow the likeliest, or the hold-out denies it, that of another family may
@@ -292,9 +289,15 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
         continue;
       drops_any = true;
       drops_a_piece = drops_a_piece || !outcome.effects[e].family->named;
-      const bool only_mends = is_of_plain(outcome.effects[e]) && best.size < now.size;
+      const bool only_mends =
+          is_of_plain(outcome.effects[e]) &&
+          (best.size < now.size ||
+           (best.size == now.size && best.effects.size() < outcome.effects.size()));
       drops_a_name = drops_a_name || (outcome.effects[e].family->named && !only_mends);
     }
+    // (names of which one takes back what the other does stand for no cause)
+    const bool cancel = best.size < now.size && drop_names_that_cancel(outcome, best);
+    if (cancel) drops_a_name = false;
     const std::size_t form = best.effects.size() - 1;
     const DriveContext here = context();
     double shared = 1.0;
@@ -303,8 +306,10 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
     const double gain = now.figure(noise) - figure -
                         (1.0 - 1.0 / shared) * std::max(0.0, now.square - best.square) / noise;
     // (a name that only mends a piece goes with it where far fewer figures do as much)
-    const bool mends = drops_a_piece && best.size + kFarFewer <= now.size;
-    if (gain < (drops_any && !drops_a_name ? kAsOne : mends ? kForBoth : kClearly)) continue;
+    const bool fewer = best.size <= now.size && best.effects.size() < outcome.effects.size();
+    const bool mends = drops_a_piece && (best.size + kFarFewer <= now.size || fewer);
+    const double as_one = fewer && (cancel || drops_a_piece) ? 0.0 : kAsOne;
+    if (gain < (drops_any && !drops_a_name ? as_one : mends ? kForBoth : kClearly)) continue;
     bool follow = true;
     for (std::size_t e = 0; e < best.effects.size() && follow; ++e)
       follow = !(e == form || (best.from[e] < 0 && !best.effects[e].family->named)) ||
@@ -317,6 +322,58 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
     most_denied_ = std::max(most_denied_, gain);
     outcome = before;
     state_ = state;
+  }
+  return false;
+}
+
+double DriveSelection::looks_beyond(const DriveOutcome& outcome, const PricedForm& priced) const {
+  // What it stands for was looked for as well, and is no better where it is more effects; of a wave
+  // that was found the order is known.
+  constexpr double kOfAPiece = 12.0, kOfAnEffect = 6.0;  // chi-square
+  constexpr std::size_t kOfKnownOrder = 30;
+  const OneForm& set = priced.set;
+  double looks = priced.looks;
+  const double order = set.effects.back().order();
+  double of_pieces = 0.0;
+  for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
+    if (std::find(set.from.begin(), set.from.end(), static_cast<int>(e)) != set.from.end())
+      continue;
+    if (set.effects.size() < outcome.effects.size() && !outcome.effects[e].family->named)
+      of_pieces += kOfAPiece;
+    if (order > 0.0 &&
+        std::abs(outcome.effects[e].order() - order) < 0.5 / std::max(1.0, table_.turns))
+      looks = std::min(looks, cost_of_looks(kOfKnownOrder));
+  }
+  const double fewer =
+      static_cast<double>(outcome.effects.size()) - static_cast<double>(set.effects.size());
+  return std::max(-kOfAnEffect * std::max(0.0, fewer), priced.looks_before + looks - of_pieces);
+}
+
+bool DriveSelection::drop_names_that_cancel(const DriveOutcome& outcome, const OneForm& set) const {
+  constexpr double kLittle = 0.2;  // of their squares
+  const DriveContext here = context();
+  const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(value_.size()), squares = sum;
+  int names = 0;
+  for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
+    if (!outcome.effects[e].family->named ||
+        std::find(set.from.begin(), set.from.end(), static_cast<int>(e)) != set.from.end())
+      continue;
+    const Eigen::VectorXd moved = fit.explained_nm(static_cast<int>(e));
+    sum += moved;
+    squares += moved.cwiseAbs2();
+    ++names;
+  }
+  if (names < 2) return false;
+  for (const bool forward : {true, false}) {
+    double together = 0.0, each = 0.0;
+    for (std::size_t i = 0; i < table_.points.size(); ++i) {
+      if (table_.points[i].forward != forward) continue;
+      const auto row = static_cast<Eigen::Index>(i);
+      together += sum[row] * sum[row];
+      each += squares[row];
+    }
+    if (each > 0.0 && together < kLittle * each) return true;
   }
   return false;
 }
@@ -339,6 +396,30 @@ void DriveSelection::let_held_out_rows_settle_sides(OneForm& set) const {
       if (const double gain = all.with(other).gain; gain > most) {
         most = gain;
         set.effects[e].shape = std::move(shape);
+      }
+    }
+  }
+}
+
+void DriveSelection::let_held_out_rows_settle_kin(DriveOutcome& outcome) {
+  constexpr double kAsWell = 4.0, kSurely = 20.0;  // chi-square
+  const DriveContext here = context();
+  for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
+    const DriveFamily& family = *outcome.effects[e].family;
+    if (!family.shape_of_rest || !family.kin_shapes) continue;
+    std::vector<DriveEffect> others = outcome.effects;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(e));
+    const BesideEffects seen(here, value_, others, FitRows::kTraining),
+        all(here, value_, others, FitRows::kAll);
+    const double seen_now = seen.with(outcome.effects[e]).gain,
+                 noise = (seen.square() - seen_now) / std::max(1.0, outcome.rows - outcome.size());
+    double most = all.with(outcome.effects[e]).gain + kSurely * noise;
+    for (DriveShape& shape : family.kin_shapes(outcome.effects[e].shape)) {
+      const DriveEffect kin{&family, shape};
+      if (seen.with(kin).gain < seen_now - kAsWell * noise) continue;
+      if (const double gain = all.with(kin).gain; gain > most) {
+        most = gain;
+        outcome.effects[e].shape = std::move(shape);
       }
     }
   }
@@ -453,53 +534,6 @@ std::vector<DriveSelection::WholeForm> DriveSelection::whole_forms(
       refined.push_back({{form.effect.family, kin}, form.gain, form.looks});
   }
   return refined;
-}
-
-void DriveSelection::add_waves_over_the_angle(const std::vector<DriveEffect>& base,
-                                              std::vector<WholeForm>& forms) const {
-  constexpr double kSure = 1e-4, kNear = 0.5;
-  if (!table_.has_angle) return;
-  const DriveContext here = context();
-  const DriveFit fit(here, value_, base, FitRows::kTraining);
-  WaveSpectra spectra;
-  const LikeliestOrder line = spectra.likeliest_order(table_, value_ - fit.explained_nm());
-  if (!(line.p_value < kSure)) return;
-  const auto add = [&](const DriveEffect& wave) {
-    std::vector<DriveEffect> effects = base;
-    effects.push_back(wave);
-    const double gain = fit.residual_square() -
-                        DriveFit(here, value_, effects, FitRows::kTraining).residual_square();
-    forms.push_back({wave, gain, cost_of_looks(table_.points.size())});
-  };
-  for (const DriveFamily& family : drive_library())
-    if (family.shape_of_wave && may_be_there(family))
-      add({&family, family.shape_of_wave(line.order, line.opposite)});
-  // One direction alone may have it.
-  const auto sized = std::find_if(drive_library().begin(), drive_library().end(),
-                                  [](const DriveFamily& f) { return f.is_wave_of_sizes; });
-  if (table_.has(true) && table_.has(false) && may_be_there(*sized))
-    for (const double how :
-         {double(drive_effects::kWaveForward), double(drive_effects::kWaveBackward)}) {
-      constexpr int kPhases = 16, kApart = 4;
-      const BesideEffects beside(here, value_, base, FitRows::kTraining);
-      WholeForm best{{&*sized, {}}, 0.0, cost_of_looks(table_.points.size())};
-      for (int k = -kApart; k <= kApart; ++k)
-        for (int phase = 0; phase < kPhases; ++phase) {
-          const DriveShape shape{line.order + 0.125 * k / std::max(1.0, table_.turns), how, 0.0,
-                                 static_cast<double>(phase) / kPhases};
-          if (const double gain = beside.with({&*sized, shape}).gain; gain > best.gain) {
-            best.gain = gain;
-            best.effect.shape = shape;
-          }
-        }
-      if (!best.effect.shape.empty()) forms.push_back(best);
-    }
-  for (std::size_t g = 0; g < candidates_.size(); ++g)
-    if (const double order = candidates_[g].order();
-        order > 0.0 && candidates_[g].family->named && !banned_[g] &&
-        may_be_there(*candidates_[g].family) &&
-        std::abs(order - line.order) < kNear / std::max(1.0, table_.turns))
-      add(candidates_[g]);
 }
 
 void DriveSelection::tell_as_scattered_states(DriveOutcome& outcome) {

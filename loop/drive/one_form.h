@@ -2,12 +2,20 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
 #include "trueflank/loop/drive/drive_selection.h"
 
 namespace trueflank::loop {
+
+/// What the best of so many shapes takes off by chance (chi-square). Neighbouring shapes do nearly
+/// the same: a quarter of them are counted.
+[[nodiscard]] inline double cost_of_looks(std::size_t shapes) {
+  return 2.0 * std::log(1.0 + 0.25 * static_cast<double>(shapes));
+}
 
 /// A set in place of the outcome's, with what it leaves.
 struct DriveSelection::OneForm {
@@ -46,6 +54,12 @@ struct DriveSelection::OneForm {
       return e.family->begins_nowhere && !e.family->begins_nowhere(e.shape);
     });
   }
+};
+
+/// A set with what the looks for its last form cost, and those for one before it (chi-square).
+struct DriveSelection::PricedForm {
+  OneForm set;
+  double looks_before = 0.0, looks = 0.0;
 };
 
 }  // namespace trueflank::loop

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/ring_scan.h"
 #include "trueflank/loop/gear/effect.h"
+#include "trueflank/loop/gear/effects/columns.h"
 
 namespace trueflank::loop {
 namespace {
@@ -210,7 +212,119 @@ class SectorSearch {
   Eigen::MatrixXd gear_, aside_;
 };
 
+constexpr int kDirections = 720;
+
+/// Products of the part of normals along a radius, in towards so many directions: with itself and
+/// with what is left, summed up to each direction from the first on, twice around.
+struct RadiiAround {
+  std::vector<double> squares, products;
+
+  RadiiAround(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
+              const std::vector<float>& row_um)
+      : squares(2 * kDirections + 1), products(2 * kDirections + 1) {
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      const Observation& row = table.rows[i];
+      if (row.kind != ObservationKind::kScanFlank || row.places != 1 ||
+          patches.patch_of_row[i] < 0 || !std::isfinite(row_um[i]))
+        continue;
+      const Place& place = table.place(row);
+      const double turns = place.polar_rad / kTwoPi;
+      const auto at =
+          std::min(kDirections - 1, static_cast<int>((turns - std::floor(turns)) * kDirections));
+      const double radius =
+          normal_part(geometry, place, place.polar_direction[0], place.polar_direction[1]);
+      for (const int around : {0, kDirections}) {
+        squares[static_cast<std::size_t>(at + around + 1)] += radius * radius;
+        products[static_cast<std::size_t>(at + around + 1)] += radius * row_um[i];
+      }
+    }
+    for (std::size_t k = 1; k < squares.size(); ++k) {
+      squares[k] += squares[k - 1];
+      products[k] += products[k - 1];
+    }
+  }
+
+  struct Part {
+    double square = 0.0, product = 0.0;
+    [[nodiscard]] double gain() const { return square > 0.0 ? product * product / square : 0.0; }
+    [[nodiscard]] double amount() const { return square > 0.0 ? product / square : 0.0; }
+  };
+  /// Of the directions from one on, before another.
+  [[nodiscard]] Part between(int from, int to) const {
+    const auto a = static_cast<std::size_t>(from), b = static_cast<std::size_t>(to);
+    return {squares[b] - squares[a], products[b] - products[a]};
+  }
+};
+
+constexpr double kDegOfDirection = 360.0 / kDirections;
+
+/// So many views, evenly spaced: from where they take out most.
+std::optional<Effect> likeliest_views(const RadiiAround& around, int number) {
+  const auto edge = [number](int from, int view) {
+    return from + static_cast<int>(std::lround(double(view) * kDirections / number));
+  };
+  int best = 0;
+  double most = 0.0;
+  for (int from = 0; from < kDirections / number; ++from) {
+    double gain = 0.0;
+    for (int view = 0; view < number; ++view)
+      gain += around.between(edge(from, view), edge(from, view + 1)).gain();
+    if (gain > most) {
+      most = gain;
+      best = from;
+    }
+  }
+  EffectShape shape{double(number), best * kDegOfDirection};
+  double square = 0.0;
+  for (int view = 0; view < number; ++view) {
+    shape.push_back(around.between(edge(best, view), edge(best, view + 1)).amount());
+    square += shape.back() * shape.back() / number;
+  }
+  if (!(square > 0.0)) return {};
+  for (std::size_t k = 2; k < shape.size(); ++k) shape[k] /= std::sqrt(square);
+  return Effect{find_family("unnamed_views"), FlankChoice::kBoth, std::move(shape)};
+}
+
+/// Drifts that are nothing at the mean, where they begin and where they end: each from where it
+/// takes out most.
+std::vector<Effect> likeliest_spirals(const RadiiAround& around) {
+  std::vector<Effect> spirals;
+  for (const auto& [zero_at, nothing] :
+       {std::pair(gear_effects::kMeanOfDrift, 0.5), std::pair(gear_effects::kFirstOfDrift, 0.0),
+        std::pair(gear_effects::kLastOfDrift, 1.0)}) {
+    int best = 0;
+    double most = 0.0;
+    for (int from = 0; from < kDirections; from += 2) {
+      RadiiAround::Part sum;
+      for (int k = 0; k < kDirections; ++k) {
+        const RadiiAround::Part one = around.between(from + k, from + k + 1);
+        const double value = (k + 0.5) / kDirections - nothing;
+        sum.square += value * value * one.square;
+        sum.product += value * one.product;
+      }
+      if (sum.gain() > most) {
+        most = sum.gain();
+        best = from;
+      }
+    }
+    spirals.push_back(
+        {find_family("unnamed_spiral"), FlankChoice::kBoth, {best * kDegOfDirection, zero_at}});
+  }
+  return spirals;
+}
+
 }  // namespace
+
+std::vector<Effect> views_and_spirals(const FlankGeometry& geometry, const Observations& table,
+                                      const Patches& patches, const std::vector<float>& row_um) {
+  constexpr int kMostViews = 8;
+  const RadiiAround around(geometry, table, patches, row_um);
+  std::vector<Effect> forms = likeliest_spirals(around);
+  for (int number = 2; number <= kMostViews; ++number)
+    if (std::optional<Effect> views = likeliest_views(around, number))
+      forms.push_back(std::move(*views));
+  return forms;
+}
 
 std::optional<MovedSector> moved_sector(const FlankGeometry& geometry,
                                         const std::vector<ToothMoments>& of_teeth) {

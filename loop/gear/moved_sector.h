@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "trueflank/loop/gear/local/patches.h"
 #include "trueflank/loop/gear/remainder_around.h"
 
 namespace trueflank::loop {
@@ -21,5 +22,13 @@ struct MovedSector {
 /// other structure is left around the gear beside it: then it is a part of another form.
 [[nodiscard]] std::optional<MovedSector> moved_sector(const FlankGeometry& geometry,
                                                       const std::vector<ToothMoments>& of_teeth);
+
+/// Views of a scan that are each moved outwards by an amount of their own, of every number the
+/// likeliest, and radii that drift once around: from the residuals of points by the direction in
+/// which they lie.
+[[nodiscard]] std::vector<Effect> views_and_spirals(const FlankGeometry& geometry,
+                                                    const Observations& table,
+                                                    const Patches& patches,
+                                                    const std::vector<float>& row_um);
 
 }  // namespace trueflank::loop

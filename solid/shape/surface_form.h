@@ -33,6 +33,21 @@ struct SurfaceForm {
     return (along * (across < 0.0 ? -1.0 : 1.0) - mixed * mixed / bent) / room_mm;
   }
   [[nodiscard]] bool is_dome(double room_mm) const { return conjugate(room_mm) * along > 0.0; }
+  [[nodiscard]] bool is_saddle() const { return mixed * mixed > across * along; }
+  /// Columns that one step across of a saddle needs with so many rows, each column's vertices where
+  /// way_to_next() says.
+  [[nodiscard]] double columns_of_rows(int rows, double room_mm) const {
+    const double half = 0.5 * along / (static_cast<double>(rows) * rows);
+    return std::sqrt(std::max(0.0, mixed * mixed - across * along)) /
+           (rows * std::hypot(room_mm, half));
+  }
+  /// From a vertex of a column to the middle of the two of the next one it is joined with, which
+  /// are one of so many rows apart: one edge is off to one side as much as the other to the other.
+  [[nodiscard]] double way_to_next(int rows) const {
+    const double bent = across + 0.25 * along / (static_cast<double>(rows) * rows);
+    const double root = std::sqrt(std::max(0.0, mixed * mixed - along * bent));
+    return -bent / (mixed + std::copysign(root, mixed));
+  }
 
   /// Columns that one step across needs with so many rows along; `room_mm`: eight tolerances. On
   /// domes isosceles triangles touch the tolerance over their circumcentre.

@@ -50,10 +50,11 @@ class ToothingGrid::SurfaceNet {
   struct Crossing {
     PanelForms forms;  ///< over a cell and the patch
     bool dome = false;
+    bool saddle = false;  ///< of a flank: as many rows on all columns, shifted from one to the next
     bool bare = false;     ///< of a flank: a strip without posts, nearly developable
     bool across = false;   ///< no vertices inside: facets reach from one break to the other
     bool between = false;  ///< the vertices of one break stand between those of the other
-    int rows = 1;          ///< of a dome
+    int rows = 1;          ///< of a dome or a saddle's flank
     std::vector<Stretch> stretches = {};  ///< of a chamfer's fillet
   };
   /// What lies between two joints or breaks of the profile.
@@ -103,8 +104,19 @@ class ToothingGrid::SurfaceNet {
     const double share = (parameter - panel.from) / (panel.to - panel.from);
     return static_cast<std::size_t>(std::clamp(share * kCells, 0.0, kCells - 1.0));
   }
+  /// Of a stretch of a panel, in cells; and at its middle, halfway up.
+  [[nodiscard]] static double cells_of(const Panel& panel, double from, double to) {
+    return kCells * (to - from) / (panel.to - panel.from);
+  }
+  [[nodiscard]] const SurfaceForm& form_between(const Panel& panel, double from, double to,
+                                                bool down) const {
+    const std::size_t cell = cell_of(panel, 0.5 * (from + to));
+    return panel.patches[patch_].forms[cell][(down ? kHeights.size() : 0) + 1];
+  }
   [[nodiscard]] double straight_way(const Panel& panel, std::size_t patch, double parameter) const;
   void choose_crossing(Panel& panel, std::size_t patch) const;
+  void choose_rows(const Panel& panel, std::size_t patch, int fewest, int most,
+                   Crossing& crossing) const;
 
   // surface_net_chamfers.cpp: fillets of edge chamfers
   /// By cell: facets with so many strips.
@@ -151,7 +163,13 @@ class ToothingGrid::SurfaceNet {
   [[nodiscard]] double steps_of(std::size_t from, std::size_t to) const;
   [[nodiscard]] static double bare_steps(const Crossing& crossing, std::size_t cell, double room);
   [[nodiscard]] std::vector<std::vector<double>> inner_rows() const;
-  [[nodiscard]] std::vector<bool> columns_between() const;
+  [[nodiscard]] std::vector<double> shifts_of_columns() const;
+  void shift_on_saddle(std::size_t first, bool down, std::vector<double>& shifts) const;
+  /// On the side where edges go down from the tip, or on the other.
+  [[nodiscard]] std::size_t edge_of_half(std::size_t half, bool down) const {
+    const std::size_t m = g_.edges_.size();
+    return down ? m + (g_.vertex_at_tooth_middle_ ? 0 : 1) + half : m - 1 - half;
+  }
   [[nodiscard]] bool is_on_level(std::size_t column, int below) const;
   [[nodiscard]] double ridge(std::size_t column) const;
   [[nodiscard]] Place end_of(std::size_t edge, bool at_end) const;

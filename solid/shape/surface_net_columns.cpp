@@ -14,6 +14,9 @@ namespace {
 /// Posts of a neighbour do where they are so little too far apart: the rounding of the others makes
 /// up for it.
 constexpr double kSlackOfShared = 0.95;
+/// Columns of shifted vertices stand nearer to a joint by this share of a step: the vertices there
+/// stand as another panel has them.
+constexpr double kNarrowerAtJoint = 0.3;
 /// Vertices of different breaks that are nearer than this share of a panel have one column.
 constexpr double kSameColumn = 1e-4;
 
@@ -96,9 +99,11 @@ void ToothingGrid::SurfaceNet::find_posts(Panel& panel) const {
     placed[patch] = true;
     if (panel.patches[patch].across || panel.patches[patch].bare) continue;
     const ColumnDemand wanted = columns(panel, patch, panel.patches[patch].rows);
-    const int count = whole_parts(wanted.whole());
+    const double narrower = panel.patches[patch].saddle ? kNarrowerAtJoint : 0.0;
+    const int count = whole_parts(wanted.whole() + 2.0 * narrower);
     for (int k = 1; k < count; ++k)
-      posts[patch].push_back(wanted.parameter_of(wanted.whole() * k / count));
+      posts[patch].push_back(
+          wanted.parameter_of(wanted.whole() * (k - narrower) / (count - 2.0 * narrower)));
     // a post costs a facet a step and one on each break that it does not share
     const double rows = rows_of(panel.patches[patch]);
     double fewest = static_cast<double>(posts[patch].size()) * (rows + 1.0);

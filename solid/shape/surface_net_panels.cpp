@@ -13,6 +13,10 @@ namespace {
 /// chords.
 constexpr double kAlmostWhole = 0.75;
 
+/// Flanks that are saddles have shifted rows where so much of their bend is their twist, and where
+/// so many columns stand that what is lost at the joints does not count.
+constexpr double kTwistOfSaddle = 0.5, kFewestOnSaddle = 6.0;
+
 /// Vertices that one step asks for of either break where facets reach from one to the other.
 double vertices_across(SurfaceForm form, double room_mm, int strips) {
   form.mixed /= strips, form.along /= strips * strips;
@@ -117,6 +121,10 @@ ColumnDemand ToothingGrid::SurfaceNet::columns(const Panel& panel, std::size_t p
     const double room = room_of(panel, patch, c);
     double most = 1e-9;
     for (const SurfaceForm& form : panel.patches[patch].forms[c]) {
+      if (panel.patches[patch].saddle) {
+        most = std::max(most, form.columns_of_rows(rows, room));
+        continue;
+      }
       // where one step up would do, columns stand as chords: steps keep the diagonals right
       const bool low = !form.is_dome(room) && std::abs(form.along) <= room;
       most =
@@ -173,7 +181,9 @@ double ToothingGrid::SurfaceNet::straight_way(const Panel& panel, std::size_t pa
 /// the fewest facets with the columns they leave.
 void ToothingGrid::SurfaceNet::choose_crossing(Panel& panel, std::size_t patch) const {
   Crossing& crossing = panel.patches[patch];
-  double along = 0.0, dome = 0.0, saddle = 0.0, left = 0.0;
+  double along = 0.0, dome = 0.0, saddle = 0.0, left = 0.0, widest = 1e300;
+  double gauss = 0.0, twists = 0.0;
+  bool all_saddle = true;
   for (std::size_t c = 0; c < kCells; ++c) {
     const double room = room_of(panel, patch, c);
     for (const SurfaceForm& form : crossing.forms[c]) {
@@ -181,6 +191,10 @@ void ToothingGrid::SurfaceNet::choose_crossing(Panel& panel, std::size_t patch) 
       dome = std::max(dome, form.left_up(room));
       saddle = std::max(saddle, -form.left_up(room));
       left = std::max(left, std::abs(form.left_up(8.0 * tolerance_)));
+      all_saddle = all_saddle && form.is_saddle();
+      gauss += form.mixed * form.mixed - form.across * form.along;
+      twists += form.mixed * form.mixed;
+      widest = std::min(widest, form.columns_of_rows(1, room) / std::sqrt(form.level / room));
     }
   }
   crossing.across = along <= 1.0 && dome <= kAlmostWhole;
@@ -191,10 +205,25 @@ void ToothingGrid::SurfaceNet::choose_crossing(Panel& panel, std::size_t patch) 
     crossing.bare = panel.flank && !crossing.across && left <= kAlmostWhole;
     crossing.across = crossing.across || !panel.flank;
   }
-  if (!crossing.dome || crossing.across) return;
   const int fewest = whole_parts(std::sqrt(along));
+  crossing.saddle = all_saddle && twists > kTwistOfSaddle * gauss && panel.flank &&
+                    !crossing.across && !crossing.bare;
+  if (crossing.saddle) {
+    // columns as far apart as their chords at most
+    choose_rows(panel, patch, fewest, std::max(fewest, static_cast<int>(widest)), crossing);
+    crossing.saddle = columns(panel, patch, crossing.rows).whole() >= kFewestOnSaddle;
+  }
+  if (!crossing.saddle && !crossing.dome) crossing.rows = 1;
+  if (crossing.saddle) return;
+  if (crossing.dome && !crossing.across)
+    choose_rows(panel, patch, fewest, 2 * fewest + 1, crossing);
+}
+
+/// Of all numbers of rows the one with the fewest facets.
+void ToothingGrid::SurfaceNet::choose_rows(const Panel& panel, std::size_t patch, int fewest,
+                                           int most, Crossing& crossing) const {
   double least_facets = 1e300;
-  for (int rows = fewest; rows <= 2 * fewest + 1; ++rows) {
+  for (int rows = fewest; rows <= most; ++rows) {
     const double facets =
         static_cast<double>(whole_parts(columns(panel, patch, rows).whole())) * rows;
     if (facets < least_facets) least_facets = facets, crossing.rows = rows;

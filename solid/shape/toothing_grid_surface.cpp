@@ -32,6 +32,8 @@ constexpr int kBendSteps = 48, kBendAngles = 16;
 constexpr double kShareOfBend = 0.3;
 /// Rows that are nearer, as a share of the patch, are one.
 constexpr double kSameHeightOfRows = 1e-9;
+/// A column's vertices stand no nearer to a break than this share of a step.
+constexpr double kNearBreak = 0.03;
 /// Of an edge, where its normals are found.
 constexpr double kNear = 1e-3;
 
@@ -260,9 +262,9 @@ double ToothingGrid::SurfaceNet::steps_of(std::size_t from, std::size_t to) cons
       if (k % (2 * kHeights.size()) / kHeights.size() != side / kHeights.size()) continue;
       SurfaceForm f = crossing.forms[c][k];
       f.across *= width * width, f.mixed *= width;
-      steps = std::max(steps, f.is_dome(room) ? crossing.rows : f.steps(room));
+      steps = std::max(steps, f.is_dome(room) || crossing.saddle ? crossing.rows : f.steps(room));
       // the diagonal that leans the wrong way
-      if (!net_[from].developable && f.across * f.along < 0.0) {
+      if (!net_[from].developable && !crossing.saddle && f.across * f.along < 0.0) {
         const double whole = room + std::abs(f.across), mixed = std::abs(f.mixed);
         steps =
             std::max(steps, (mixed + std::sqrt(mixed * mixed + std::abs(f.along) * whole)) / whole);
@@ -308,7 +310,7 @@ std::vector<std::vector<double>> ToothingGrid::SurfaceNet::inner_rows() const {
     }
     i = end;
   }
-  const std::vector<bool> between = columns_between();
+  const std::vector<double> shifts = shifts_of_columns();
   std::vector<std::vector<double>> inner(n);
   for (std::size_t i = 0; i < n; ++i) {
     const int strips = net_[i].strips, before = net_[(i + n - 1) % n].strips;
@@ -321,45 +323,79 @@ std::vector<std::vector<double>> ToothingGrid::SurfaceNet::inner_rows() const {
       inner[i] = heights_between(strips, before, parts[i]);
       continue;
     }
-    const bool shifted = between[i] && parts[i] > 1;
-    for (int k = shifted ? 0 : 1; k < parts[i]; ++k)
-      inner[i].push_back((k + (shifted ? 0.5 : 0.0)) / parts[i]);
+    const double shift = parts[i] > 1 ? shifts[i] : 0.0;
+    for (int k = 0; k <= parts[i]; ++k) {
+      const double step = k + shift;
+      if (step > kNearBreak && step < parts[i] - kNearBreak) inner[i].push_back(step / parts[i]);
+    }
   }
   return inner;
 }
 
-/// By column, whether it has its vertices between its neighbour's, seen along the ways up that
-/// turn the normal least: isosceles triangles on domes. Counted from the tip on either side.
-std::vector<bool> ToothingGrid::SurfaceNet::columns_between() const {
+/// By column, by how many steps its vertices are shifted. On domes half a step where they stand
+/// between its neighbour's, seen along the ways up that turn the normal least: isosceles triangles.
+/// Counted from the tip on either side.
+std::vector<double> ToothingGrid::SurfaceNet::shifts_of_columns() const {
   const std::size_t n = net_.size(), m = g_.edges_.size();
-  std::vector<bool> between(n, false);
+  std::vector<double> shifts(n, 0.0);
   for (const bool down : {false, true}) {
     double phase = 0.0, shift = 0.0;
+    const Panel* before = nullptr;
     for (std::size_t half = 0; half < m; ++half) {
-      const std::size_t edge =
-          down ? m + (g_.vertex_at_tooth_middle_ ? 0 : 1) + half : m - 1 - half;
-      if (on_land(edge) || !panel_of(edge).patches[patch_].dome) {
+      const std::size_t edge = edge_of_half(half, down);
+      const Panel* panel = on_land(edge) ? nullptr : &panel_of(edge);
+      const bool begins = panel != before;
+      before = panel;
+      if (panel == nullptr || !panel->patches[patch_].dome) {
         phase = shift = 0.0;
+        if (panel != nullptr && begins && panel->patches[patch_].saddle)
+          shift_on_saddle(half, down, shifts);
         continue;
       }
-      const Panel& panel = panel_of(edge);
       const HalfEdge& e = g_.edges_[half];
-      const double width = kCells * (e.to - e.from) / (panel.to - panel.from);
-      const auto cell = static_cast<std::size_t>(
-          std::clamp(kCells * (0.5 * (e.from + e.to) - panel.from) / (panel.to - panel.from), 0.0,
-                     kCells - 1.0));
-      const SurfaceForm& bent = panel.patches[patch_].forms[cell][(down ? kHeights.size() : 0) + 1];
-      if (bent.along != 0.0) shift -= bent.mixed * width / bent.along;
+      const SurfaceForm& bent = form_between(*panel, e.from, e.to, down);
+      if (bent.along != 0.0) shift -= bent.mixed * cells_of(*panel, e.from, e.to) / bent.along;
       if (half + 1 < m && ((g_.edges_[half + 1].posts >> patch_) & 1U) == 0) continue;
-      phase += shift * panel.patches[patch_].rows + 0.5;
+      phase += shift * panel->patches[patch_].rows + 0.5;
       phase -= std::floor(phase);
       shift = 0.0;
       const bool nearer = std::abs(phase - 0.5) < 0.25;
       phase = nearer ? 0.5 : 0.0;
-      between[(down ? edge + 1 : edge) % n] = nearer;
+      shifts[(down ? edge + 1 : edge) % n] = phase;
     }
   }
-  return between;
+  return shifts;
+}
+
+/// Of a saddle: each column's vertices stand where both edges to each of the one before keep the
+/// tolerance. What is missing to a whole step at the panel's end is shared out.
+void ToothingGrid::SurfaceNet::shift_on_saddle(std::size_t first, bool down,
+                                               std::vector<double>& shifts) const {
+  const Panel& panel = panel_of(edge_of_half(first, down));
+  const int rows = panel.patches[patch_].rows;
+  std::vector<std::size_t> columns;
+  std::vector<double> phases;
+  double phase = 0.0, from = panel.from;
+  for (std::size_t half = first; half < g_.edges_.size(); ++half) {
+    const HalfEdge& e = g_.edges_[half];
+    const bool ends = e.to == panel.to;
+    if (!ends && ((g_.edges_[half + 1].posts >> patch_) & 1U) == 0) continue;
+    SurfaceForm bent = form_between(panel, from, e.to, down);
+    const double width = cells_of(panel, from, e.to);
+    bent.across *= width * width, bent.mixed *= width;
+    phase += bent.way_to_next(rows) * rows + 0.5;
+    phases.push_back(phase);
+    const std::size_t edge = edge_of_half(half, down);
+    columns.push_back((down ? edge + 1 : edge) % net_.size());
+    from = e.to;
+    if (ends) break;
+  }
+  const double missing = std::round(phase) - phase;
+  for (std::size_t k = 0; k + 1 < columns.size(); ++k) {
+    const double at =
+        phases[k] + missing * static_cast<double>(k + 1) / static_cast<double>(columns.size());
+    shifts[columns[k]] = at - std::floor(at);
+  }
 }
 
 /// Whether a column within a stretch has a vertex on the row above so many of its strips.

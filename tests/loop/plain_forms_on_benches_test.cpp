@@ -3,41 +3,13 @@
 
 #include <cmath>
 
-#include "tests/loop/bench_answers.h"
-#include "tests/loop/drawn_bench.h"
+#include "tests/loop/told_as_one_form.h"
 
 // What a person sees at once in a plot of the residual, drawn anew: rows that go by turns, a block
 // of rows, a corner of two quantities, steps of a reading, a wave that grows with the speed. Each
 // is told as one effect with its place and size, and nothing far above the noise is left.
 namespace trueflank::test {
 namespace {
-
-using ClosedBench = ResultAll<loop::DriveLoop>;
-
-/// No more than the noise is left: of the drawn bench at the output, forward.
-bool leaves_noise(const ClosedBench& closed, const DrawnBench& bench) {
-  constexpr double kOfNoise = 1.3;
-  return closed && closed->result.after.rms <
-                       kOfNoise * (bench.noise_output_nm + bench.noise_input_nm * bench.ratio);
-}
-
-using FormDraw = std::function<void(Answers&, std::uint64_t)>;
-void expect_all(std::uint64_t first, int draws, const FormDraw& draw) {
-  Answers answers;
-  for (int run = 0; run < draws; ++run) draw(answers, first + static_cast<std::uint64_t>(run));
-  EXPECT_EQ(answers.right, draws) << answers.text();
-}
-
-/// The drawn bench with this loss, closed; right where one effect has these figures within a fifth.
-void closes_as(Answers& answers, std::uint64_t seed, const std::string& truth, DrawnBench& bench,
-               const DrawnBench::Loss& loss,
-               const std::vector<std::pair<std::string, double>>& figures) {
-  const auto closed = loop::close_drive_loop(bench.model(), bench.data(loss));
-  bool is_right = leaves_noise(closed, bench);
-  for (const auto& [name, value] : figures)
-    is_right = is_right && is_told_once(closed, name, value);
-  answers.add(seed, truth, closed, is_right);
-}
 
 TEST(PlainFormsOnBenches, RowsByTurnsAreOneForm) {
   expect_all(5100, 4, [](Answers& answers, std::uint64_t seed) {

@@ -302,6 +302,32 @@ std::vector<Told> forms(const loop::FlankGeometry& g) {
        1,
        0,
        0},
+      {"unnamed_slip",
+       {5, 6, 1, 1},
+       "the place of the teeth goes evenly from tooth 5 to tooth 11, counter-clockwise, and stays "
+       "so "
+       "up to tooth 24",
+       "from tooth 5 to tooth 11, clockwise, and stays so",
+       15,
+       1,
+       0,
+       0},
+      {"unnamed_spiral",
+       {300, 1},
+       "from 300 deg on, once around towards larger angles, the radius grows evenly by",
+       "the radius shrinks evenly",
+       15,
+       1,
+       0,
+       0},
+      {"unnamed_views",
+       {3, 100, 0.5, 1.2, -1.127},
+       "3 views of a scan, each of 120 deg, the first from 100 deg on",
+       "+ is outwards",
+       20,
+       1,
+       0,
+       0},
       {"unnamed_slanted_ridge",
        {5, 4, 0, 1, 0, 0},
        "a ridge in a line aslant over the flanks, from a height of 3 mm at the root",
@@ -573,10 +599,10 @@ TEST(SignWords, AreSaidOfEveryFormOfOneCoefficient) {
         "unnamed_crossed_order", "unnamed_crossed_waves", "unnamed_body_wave", "unnamed_patch",
         "unnamed_waviness", "unnamed_marks", "unnamed_waves_from", "unnamed_waves_mirrored",
         "unnamed_waves_dying", "unnamed_waves_growing", "unnamed_walking_waves",
-        "unnamed_waves_changing", "unnamed_bow", "unnamed_axis_kink", "unnamed_field",
-        "unnamed_facing", "unnamed_moved_sector", "unnamed_drift_aside", "unnamed_broken_wave",
-        "unnamed_stairs", "unnamed_wave_of_some", "unnamed_pattern", "unnamed_plane_wave",
-        "unnamed_plane_saw", "unnamed_changing_wave",
+        "unnamed_waves_changing", "unnamed_waves_burst", "unnamed_bow", "unnamed_axis_kink",
+        "unnamed_field", "unnamed_facing", "unnamed_moved_sector", "unnamed_drift_aside",
+        "unnamed_broken_wave", "unnamed_stairs", "unnamed_wave_of_some", "unnamed_pattern",
+        "unnamed_plane_wave", "unnamed_plane_saw", "unnamed_changing_wave",
         // (play is said by its axis; the words of those of some teeth are those of all)
         "unnamed_wobble", "unnamed_reversal", "unnamed_kink_of_teeth", "unnamed_bend_of_teeth",
         "unnamed_waviness_of_teeth", "unnamed_dish_of_teeth", "unnamed_slanted_ridge_of_teeth",
@@ -607,7 +633,7 @@ TEST(SignWords, SayWhereAWaveIsLargest) {
       HasSubstr("3 times per turn, dying away from the lower end within 2 mm, opposite on "
                 "the two flanks: there the teeth stand counter-clockwise, most at 30 deg "
                 "first"));
-  EXPECT_THAT(said_of(g, effect_of("unnamed_body_wave", {3, 1, 4, 0, 1, 0}), {0, 4}),
+  EXPECT_THAT(said_of(g, effect_of("unnamed_body_wave", {3, 1, 4, 0, 1, 0, 0}), {0, 4}),
               HasSubstr("the gear is out of round 3 times per turn, more and more by the square "
                         "from the lower end on towards the upper end, by 4 um of radius at most, "
                         "at 30 deg first"));

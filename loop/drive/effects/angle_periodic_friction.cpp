@@ -1,8 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <string>
+
 #include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/effects/registry.h"
 
 namespace trueflank::loop::drive_effects {
+
+namespace {
+
+std::string periodic_words(const DriveModel& model, const DriveShape& shape) {
+  std::string text = wave_in_words(model, shape[0]);
+  const bool is_of_a_member = text.back() == ')';
+  if (!is_of_a_member && shape[0] == std::round(shape[0]))
+    text += " (input shaft, " + short_text(shape[0]) + " times a turn)";
+  return text + (shape[1] != 0.0 ? ", in proportion to the load" : "");
+}
+
+}  // namespace
 
 DriveFamily angle_periodic_friction() {
   DriveFamily f;
@@ -27,6 +43,15 @@ DriveFamily angle_periodic_friction() {
     }
     return shapes;
   };
+  // Jaws of a coupling, poles, screws: any whole order of the input's shaft, once a spectrum shows
+  // it.
+  f.shapes_at_order = [](const DriveContext& context, double order) {
+    constexpr double kLeastOrder = 3.0, kNear = 0.25;
+    const double whole = std::round(order);
+    if (whole < kLeastOrder || std::abs(order - whole) > kNear / std::max(1.0, context.table.turns))
+      return std::vector<DriveShape>{};
+    return std::vector<DriveShape>{{whole, 0.0}, {whole, 1.0}};
+  };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& shape, double* c) {
     const double size = -context.lever(p) *
                         (shape[1] != 0.0 ? p.load_nm / context.table.most_load_nm : 1.0);
@@ -35,10 +60,10 @@ DriveFamily angle_periodic_friction() {
   };
   f.order = first_value;
   f.words = [](const DriveModel& model, const DriveShape& shape, const DriveContext*) {
-    return wave_in_words(model, shape[0]) + (shape[1] != 0.0 ? ", in proportion to the load" : "");
+    return periodic_words(model, shape);
   };
   f.detail = [](const DriveModel& model, const DriveShape& shape) {
-    return ": " + wave_in_words(model, shape[0]) + (shape[1] != 0.0 ? ", in proportion to the load" : "");
+    return ": " + periodic_words(model, shape);
   };
   f.not_carried = "it cancels over a turn";
   return f;

@@ -40,6 +40,19 @@ std::vector<DriveShape> speed_shapes(const DriveContext& context) {
   return shapes;
 }
 
+std::vector<DriveShape> fading_shapes(const DriveContext& context) {
+  std::vector<DriveShape> shapes;
+  for (const double exponent : {2.0, 1.0})
+    for (const DriveShape& speed : speed_shapes(context))
+      shapes.push_back({speed.front(), exponent});
+  return shapes;
+}
+
+double faded(const BenchPoint& p, const DriveShape& shape) {
+  const double x = p.speed_rpm / shape[0];
+  return std::exp(shape[1] == 1.0 ? -x : -x * x);
+}
+
 std::pair<double, double> speed_limits(const DriveContext& context) {
   return {0.3 * context.table.least_speed_rpm + 1e-3 * context.table.most_speed_rpm,
           0.7 * context.table.most_speed_rpm};

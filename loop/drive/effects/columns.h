@@ -37,22 +37,47 @@ inline constexpr double kMostFriction = 0.4;
 /// "in a wave of order 0.25 per input turn (carrier)".
 [[nodiscard]] std::string wave_in_words(const DriveModel& model, double order);
 [[nodiscard]] std::string short_text(double value);
+/// Scales of the speed, and the exponent by which a loss fades with it: 2, or 1.
+[[nodiscard]] std::vector<DriveShape> fading_shapes(const DriveContext& context);
+/// exp(-(n/n0)^exponent).
+[[nodiscard]] double faded(const BenchPoint& p, const DriveShape& shape);
+/// What is said of one that fades by exp(-n/n0): a design has the other alone.
+inline constexpr const char* kFadesOtherwise =
+    "a design's [losses] have exp(-(n/n0)^2) alone, and one of it";
+
 [[nodiscard]] inline double first_value(const DriveShape& shape) { return shape[0]; }
 
 /// The one shape of an effect that grows over the run; none where any slope over so few set points looks like it.
 [[nodiscard]] std::vector<DriveShape> where_rows_follow_each_other(const DriveContext& context);
 
-/// What the size of a wave follows, that it comes by the clock, or the one direction that has it.
+/// What the size of a wave follows, or that it comes by the clock.
 enum WaveHow {
-  kWaveWithLoad = 1,
+  kWaveEven,
+  kWaveWithLoad,
   kWaveGrows,
   kWaveByRows,
-  kWaveForward,
-  kWaveBackward,
   kWaveWithSpeed,
   kWaveWithWarmth,
   kWaveWithCold
 };
+/// The values of a wave of sizes: `kWaveDirection` is that of in_direction(). The last three are
+/// those of one that a part of the range alone has.
+enum WaveValue : std::size_t {
+  kWaveOrder,
+  kWaveHow,
+  kWaveDirection,
+  kWavePhase,
+  kWaveOver,   ///< load, speed, temperature, or the run (kOverRun)
+  kWavePlace,  ///< 0 ... 1, of the largest load and speed
+  kWaveSide
+};
+inline constexpr double kOverRun = 3.0, kOverDrivingLoad = 4.0;
+/// Where it is: beyond the place, up to it, or on both sides the one opposite to the other.
+enum WaveSide { kWaveAbove, kWaveBelow, kWaveTurnsOver };
+/// What makes a wave larger in a row, 1 at the most.
+[[nodiscard]] double size_of_wave(const DriveContext& context, const BenchPoint& p, double how);
+/// Where a row is, 0 ... 1, for the place of a wave.
+[[nodiscard]] double share_for_wave(const DriveContext& context, const BenchPoint& p, double over);
 
 /// What changes in the course of a run or over a part of a turn.
 enum What { kFlanks, kDrag, kOutputReads, kOutputGain };

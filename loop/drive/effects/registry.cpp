@@ -67,6 +67,7 @@ const std::vector<DriveFamily>& drive_library() {
         unnamed_reading_onset(),
         unnamed_power_onset(),
         unnamed_wave(),
+        unnamed_part_wave(),
         unnamed_coordinate_wave(),
         unnamed_reading_coordinate_wave(),
         unnamed_sawtooth(),
@@ -85,6 +86,10 @@ const std::vector<DriveFamily>& drive_library() {
         unnamed_log_onset(),
         unnamed_moving_hump(),
         unnamed_cusps(),
+        unnamed_plateau(),
+        unnamed_two_steps(),
+        unnamed_bow(),
+        unnamed_reading_bow(),
     };
     for (DriveFamily& family : all) {
       family.shape_values.resize(family.shape_names.size());

@@ -74,6 +74,7 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_root();
 [[nodiscard]] DriveFamily unnamed_power_onset();
 [[nodiscard]] DriveFamily unnamed_wave();
+[[nodiscard]] DriveFamily unnamed_part_wave();
 [[nodiscard]] DriveFamily unnamed_states();
 [[nodiscard]] DriveFamily unnamed_coordinate_wave();
 [[nodiscard]] DriveFamily unnamed_reading_coordinate_wave();
@@ -93,6 +94,10 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_log_onset();
 [[nodiscard]] DriveFamily unnamed_moving_hump();
 [[nodiscard]] DriveFamily unnamed_cusps();
+[[nodiscard]] DriveFamily unnamed_plateau();
+[[nodiscard]] DriveFamily unnamed_two_steps();
+[[nodiscard]] DriveFamily unnamed_bow();
+[[nodiscard]] DriveFamily unnamed_reading_bow();
 /// @}
 
 }  // namespace trueflank::loop::drive_effects

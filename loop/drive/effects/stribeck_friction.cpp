@@ -7,25 +7,26 @@ namespace trueflank::loop::drive_effects {
 DriveFamily stribeck_friction() {
   DriveFamily f;
   f.id = "stribeck_friction";
-  f.description = "a torque at the input that fades as the drive speeds up: T exp(-(n/n0)^2)";
+  f.description =
+      "a torque at the input that fades as the drive speeds up: T exp(-(n/n0)^exponent)";
   f.cause = "boundary lubrication at low speed";
   f.correction = "lubricant with better boundary film, smoother flanks and seals";
   f.follows = "speed";
   f.parameters = {"torque_nm"};
-  f.shape_names = {"speed_rpm"};
+  f.shape_names = {"speed_rpm", "exponent"};
   f.only_positive = true;
   f.preference = 2;
-  f.shapes = speed_shapes;
-  f.evaluate = loss([](auto&, const BenchPoint& p, const DriveShape& shape) {
-    const double x = p.speed_rpm / shape[0];
-    return std::exp(-x * x);
-  });
-  f.shape_values = {{.continuous = true, .limits = speed_limits}};
+  f.shapes = fading_shapes;
+  f.evaluate =
+      loss([](auto&, const BenchPoint& p, const DriveShape& shape) { return faded(p, shape); });
+  f.shape_values = {{.continuous = true, .limits = speed_limits}, {}};
   f.calibrate = [](CalibratedLosses& c, const DriveShape& shape, double b) {
-    return CalibratedLosses::add(c.losses.stribeck_torque_nm, b, c.losses.stribeck_speed_rpm, shape[0]);
+    return shape[1] == 2.0 && CalibratedLosses::add(c.losses.stribeck_torque_nm, b,
+                                                    c.losses.stribeck_speed_rpm, shape[0]);
   };
   f.told_from = {{"viscous_drag", "speeds over two decades, creeping included"},
                  {"mixed_friction", "a sweep of the load at creeping speed"}};
+  f.not_carried = kFadesOtherwise;
   return f;
 }
 

@@ -39,8 +39,10 @@ std::string lines_of_rests(const DriveContext& context, const DriveShape& s) {
   const BenchPoint* before = nullptr;
   for (const BenchPoint& p : context.table.points) {
     const bool starts =
-        before == nullptr || rows_since_rest(p, s[kRestPeriod], s[kRestPhase]) <
-                                 rows_since_rest(*before, s[kRestPeriod], s[kRestPhase]);
+        before == nullptr
+            ? rows_since_rest(p, s[kRestPeriod], s[kRestPhase]) < 1.0 || s[kRestPeriod] > 0.0
+            : rows_since_rest(p, s[kRestPeriod], s[kRestPhase]) <
+                  rows_since_rest(*before, s[kRestPeriod], s[kRestPhase]);
     before = &p;
     if (!starts) continue;
     if (++told > 3) return text + ", ...";
@@ -52,7 +54,9 @@ std::string lines_of_rests(const DriveContext& context, const DriveShape& s) {
 }  // namespace
 
 double rows_since_rest(const BenchPoint& p, double period, double phase) {
-  if (period == 0.0) return p.since_turn;
+  constexpr double kLongAgo = 1e6;
+  // (with a phase the run began long after the drive did)
+  if (period == 0.0) return phase != 0.0 && p.since_turn == p.row ? kLongAgo : p.since_turn;
   const double turns = (p.row - phase) / period;
   return p.row - phase - period * std::floor(turns);
 }
@@ -90,15 +94,24 @@ DriveFamily unnamed_after_rest() {
           shapes.push_back({double(kDrag), double(period), double(phase), kOneRow});
     if (turns)
       for (const double of : {double(kDrag), double(kFlanks)})
-        for (const double rows : {kOneRow, 1.0, 2.5}) shapes.push_back({of, 0.0, 0.0, rows});
+        for (const double runs_before : {0.0, 1.0})
+          for (const double rows : {kOneRow, 1.0, 2.5, 5.0})
+            shapes.push_back({of, 0.0, runs_before, rows});
     return shapes;
   };
   f.kind = [](const DriveShape& s) { return s[kRestPeriod] == 0.0 ? 1 : 0; };
   f.kin_shapes = [](const DriveShape& s) {
-    DriveShape flanks = s;
-    flanks[kRestOf] = double(kFlanks);
-    return s[kRestOf] == double(kFlanks) ? std::vector<DriveShape>{s}
-                                         : std::vector<DriveShape>{s, flanks};
+    std::vector<DriveShape> kin{s};
+    for (const double of : {double(kDrag), double(kFlanks)})
+      for (const double phase : {0.0, 1.0}) {
+        DriveShape other = s;
+        other[kRestOf] = of;
+        if (s[kRestPeriod] == 0.0) other[kRestPhase] = phase;
+        if (other != s && std::find(kin.begin(), kin.end(), other) == kin.end() &&
+            (of == double(kFlanks) || s[kRestOf] == double(kDrag)))
+          kin.push_back(other);
+      }
+    return kin;
   };
   f.shape_of_rest = [](double of, double period, double phase, double rows) {
     return DriveShape{of, period, phase, rows};

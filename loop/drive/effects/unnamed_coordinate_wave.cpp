@@ -23,7 +23,9 @@ enum CoordinateWave : std::size_t {
   kCwReads,   ///< as the output's torque reads, or a loss
   kCwBased    ///< between nothing and the most, or as much to either side
 };
-enum CwOver { kCwLoad, kCwSpeed, kCwTemperature, kCwLogSpeed, kCwRun };
+enum CwOver { kCwLoad, kCwSpeed, kCwTemperature, kCwLogSpeed, kCwRun, kCwDrivingLoad };
+
+bool is_cw_load(double over) { return over == double(kCwLoad) || over == double(kCwDrivingLoad); }
 
 double cw_least_speed(const DriveContext& context) {
   return std::max(context.table.least_speed_rpm, 1e-3 * context.table.most_speed_rpm);
@@ -36,6 +38,7 @@ double cw_rows(const DriveContext& context) {
 /// 0 ... 1 over the range.
 double cw_share(const DriveContext& context, const BenchPoint& p, double over) {
   if (over == double(kCwRun)) return p.taken;
+  if (over == double(kCwDrivingLoad)) return p.load_nm / context.table.most_load_nm;
   if (over != double(kCwLogSpeed)) return context.share_of_range(p, over);
   const double least = cw_least_speed(context);
   return std::log(std::max(p.speed_rpm, least) / least) /
@@ -47,6 +50,7 @@ double cw_quantity(const DriveContext& context, double over, double share) {
     const double least = cw_least_speed(context);
     return least * std::pow(context.table.most_speed_rpm / least, share);
   }
+  if (over == double(kCwDrivingLoad)) return share * context.table.most_load_nm;
   return context.quantity_at_share(over, share);
 }
 
@@ -70,9 +74,7 @@ double most_cycles(const DriveContext& context, double over) {
 }
 
 std::string cw_unit(double over) {
-  return over == double(kCwLoad)          ? " N m at the input"
-         : over == double(kCwTemperature) ? " C"
-                                          : " rpm";
+  return is_cw_load(over) ? " N m at the input" : over == double(kCwTemperature) ? " C" : " rpm";
 }
 
 /// The first place from the start of the range on at which most of it stands.
@@ -92,7 +94,7 @@ std::vector<Parameter> cw_figures(const DriveContext& context, const DriveShape&
                   std::pow(context.table.most_speed_rpm / cw_least_speed(context), 1.0 / cycles)));
   else
     figures.push_back(
-        figure_of(over == double(kCwLoad)    ? "period_nm"
+        figure_of(is_cw_load(over)           ? "period_nm"
                   : over == double(kCwSpeed) ? "period_rpm"
                                              : "period_c",
                   cw_quantity(context, over, 1.0 / cycles) - cw_quantity(context, over, 0.0)));
@@ -120,9 +122,10 @@ std::string cw_told(const DriveContext& context, const DriveShape& s, double amo
                  ? "again at every " + with_interval(figures[1], " times the speed")
                  : "again every " + with_interval(figures[1], cw_unit(over));
   }
-  const std::string of = over == double(kCwRun)        ? "course of the run"
-                         : over == double(kCwLogSpeed) ? "logarithm of the speed"
-                                                       : name_of_quantity(over);
+  const std::string of = over == double(kCwRun) ? "course of the run"
+                         : over == double(kCwLogSpeed)
+                             ? "logarithm of the speed"
+                             : name_of_quantity(is_cw_load(over) ? 0.0 : over);
   const Parameter& size = reads ? figures.back() : figures.front();
   const std::string amounts =
       based ? "between nothing and " +
@@ -138,7 +141,7 @@ std::vector<DriveShape> cw_whole_shapes(const DriveContext& context, bool reads)
   constexpr int kPhases = 8;
   std::vector<DriveShape> shapes;
   for (const double over : {double(kCwLoad), double(kCwSpeed), double(kCwTemperature),
-                            double(kCwLogSpeed), double(kCwRun)}) {
+                            double(kCwLogSpeed), double(kCwRun), double(kCwDrivingLoad)}) {
     const double most = most_cycles(context, over);
     // (slower over the run is a course of it)
     const double fewest = over == double(kCwRun) ? kFewestOfRun : kFewest;
@@ -197,9 +200,10 @@ DriveFamily coordinate_wave(bool reads) {
   f.told = cw_told;
   f.words = [](const DriveModel&, const DriveShape& s, const DriveContext*) {
     return std::string("that comes and goes in a wave over the ") +
-           (s[kCwOver] == double(kCwRun)        ? "run"
-            : s[kCwOver] == double(kCwLogSpeed) ? "logarithm of the speed"
-                                                : name_of_quantity(s[kCwOver]));
+           (s[kCwOver] == double(kCwRun) ? "run"
+            : s[kCwOver] == double(kCwLogSpeed)
+                ? "logarithm of the speed"
+                : name_of_quantity(is_cw_load(s[kCwOver]) ? 0.0 : s[kCwOver]));
   };
   return f;
 }

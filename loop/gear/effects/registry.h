@@ -92,6 +92,7 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_waves_from();
 [[nodiscard]] EffectFamily unnamed_waves_dying();
 [[nodiscard]] EffectFamily unnamed_waves_growing();
+[[nodiscard]] EffectFamily unnamed_waves_burst();
 [[nodiscard]] EffectFamily unnamed_waves_changing();
 [[nodiscard]] EffectFamily unnamed_marks();
 [[nodiscard]] EffectFamily unnamed_scallops();
@@ -104,6 +105,7 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_axis_kink();
 [[nodiscard]] EffectFamily unnamed_field();
 [[nodiscard]] EffectFamily unnamed_cut_order();
+[[nodiscard]] EffectFamily unnamed_slip();
 /// True where steps of so many teeth come to every tooth before they come around.
 [[nodiscard]] bool can_be_cut_in_steps(int teeth, int step);
 [[nodiscard]] EffectFamily unnamed_changing_wave();
@@ -120,6 +122,8 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_reversal();
 [[nodiscard]] EffectFamily unnamed_moved_sector();
 [[nodiscard]] EffectFamily unnamed_moved_part();
+[[nodiscard]] EffectFamily unnamed_views();
+[[nodiscard]] EffectFamily unnamed_spiral();
 [[nodiscard]] EffectFamily unnamed_alternation();
 [[nodiscard]] EffectFamily unnamed_ramp();
 [[nodiscard]] EffectFamily unnamed_levelling();

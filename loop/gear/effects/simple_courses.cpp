@@ -60,12 +60,15 @@ double FlankCourse::value(const FlankGeometry& g, double face, double at_mm) con
       const double from = stands_at(g, face, mm);
       return std::abs(at_mm - from) / std::max(std::abs(high - from), std::abs(low - from));
     }
+    case kSwells:
+      return 0.5 * (1.0 + std::cos(kPi * (at_mm - stands_at(g, face, mm)) / half_mm));
   }
   return 0.0;
 }
 
 bool FlankCourse::is_of_free_form(const FlankGeometry& g, double face) const {
-  constexpr double kNearlyAll = 0.35, kLong = 0.25, kLongOfBoth = 0.12, kWide = 0.25;
+  constexpr double kNearlyAll = 0.35, kLong = 0.25, kLongOfBoth = 0.12, kWide = 0.25,
+                   kLongSwell = 0.4;
   const double range = std::abs(range_mm(g, face));
   switch (kind) {
     case kWhole:
@@ -81,6 +84,8 @@ bool FlankCourse::is_of_free_form(const FlankGeometry& g, double face) const {
       return mm > (towards != 0.0 ? kLong : kLongOfBoth) * range;
     case kBand:
       return half_mm > kWide * range;
+    case kSwells:
+      return half_mm > kLongSwell * range;
     case kStep:
     case kVee:
       return false;
@@ -95,6 +100,7 @@ int FlankCourse::values_sought() const {
     case kBow:
       return 0;
     case kBand:
+    case kSwells:
       return 2;
     case kStep:
       return half_mm > 0.0 ? 2 : 1;
@@ -116,6 +122,8 @@ bool is_of_its_kind(const FlankGeometry& g, double face, const FlankCourse& cour
   if (course.kind == FlankCourse::kRise)
     return between(course.mm / range, kShortest, course.towards != 0.0 ? kLongest : kLongestOfBoth);
   const double share = share_at(g, face, course.mm);
+  if (course.kind == FlankCourse::kSwells)
+    return between(share, 0.0, 1.0) && between(course.half_mm / range, kNarrowest, kWidest);
   if (course.kind == FlankCourse::kStep || course.kind == FlankCourse::kVee)
     return between(share, kNearestStep, 1.0 - kNearestStep);
   if (course.kind == FlankCourse::kBand)
@@ -146,6 +154,15 @@ std::vector<FlankCourse> FlankCourse::beside(const FlankGeometry& g, double face
     return courses;
   }
   const double share = share_at(g, face, mm);
+  if (own == kSwells) {
+    for (const double off : {0.3, 0.1, 0.03, 0.01})
+      for (const double sign : {-1.0, 1.0}) {
+        const double moved = std::clamp(share + sign * off * half_mm / range, 0.0, 1.0);
+        add({kind, place_at(g, face, moved), towards, half_mm});
+        add({kind, mm, towards, (1.0 + 0.3 * sign * off) * half_mm});
+      }
+    return courses;
+  }
   for (const double off : {0.05, 0.02, 0.01, 0.005, 0.002, 0.0007})
     for (const double sign : {-1.0, 1.0}) {
       const double moved = std::clamp(share + sign * off, 0.0, 1.0);
@@ -205,6 +222,8 @@ std::string FlankCourse::words(const FlankGeometry& g, double face) const {
     }
     case kBand:
       return "about " + where + ", " + within(g, face, half_mm, "", " to either side");
+    case kSwells:
+      return "coming and going, " + within(g, face, 2.0 * half_mm, "every ", ", most at ") + where;
     case kVee:
       return "more and more evenly from " + where + " on to both sides";
     case kBow:
@@ -215,7 +234,7 @@ std::string FlankCourse::words(const FlankGeometry& g, double face) const {
 }
 
 std::vector<std::string> FlankCourse::kind_words() {
-  return {"whole", "slope", "step", "kink", "bend", "rise", "band", "bow", "vee"};
+  return {"whole", "slope", "step", "kink", "bend", "rise", "band", "bow", "vee", "swells"};
 }
 
 void AroundCourse::put_in(EffectShape& shape, std::size_t first) const {
@@ -259,6 +278,8 @@ double AroundCourse::value(const FlankGeometry& g, int tooth) const {
     }
     case kWave:
       return std::cos(kPi * off / half);
+    case kComesAndGoes:
+      return 0.5 * (1.0 + std::cos(kPi * off / half));
     case kEvery:
     case kComb:
       break;
@@ -293,10 +314,11 @@ std::vector<AroundCourse> AroundCourse::beside(const FlankGeometry& g) const {
     }
     return courses;
   }
-  const double scale = kind == kWave ? half_deg / 180.0 : 1.0;
+  const bool wave = kind == kWave || kind == kComesAndGoes;
+  const double scale = wave ? half_deg / 180.0 : 1.0;
   for (const double off : {-20.0, -7.0, -2.0, -0.7, 0.7, 2.0, 7.0, 20.0})
     add({kind, towards_deg + scale * off, half_deg});
-  if (kind == kWave) return courses;
+  if (wave) return courses;
   if (kind == kBell) add({kHalf, towards_deg, 0.0});
   if (kind == kBell)
     for (const double times : {0.7, 0.85, 0.95, 1.05, 1.18, 1.43})
@@ -337,13 +359,15 @@ std::string AroundCourse::words(const FlankGeometry& g) const {
              (kind == kRamp ? "more and more" : "less and less") +
              " from tooth to tooth, once around";
     }
+    case kComesAndGoes:
     case kWave: {
       const int order = static_cast<int>(std::lround(180.0 / half_deg));
-      return (order == 1   ? std::string("once")
+      return std::string(kind == kWave ? "" : "coming and going ") +
+             (order == 1   ? std::string("once")
               : order == 2 ? std::string("twice")
                            : printed("%d times", order)) +
              " per turn, most " + printed("at %.0f deg", std::fmod(turned, 360.0 / order)) +
-             (order > 1 ? " first" : "");
+             (order > 1 ? " first" : "") + (kind == kWave ? "" : ", nothing between");
     }
     case kComb: {
       const auto [every, first] = teeth_of_comb(g);
@@ -354,7 +378,7 @@ std::string AroundCourse::words(const FlankGeometry& g) const {
 }
 
 std::vector<std::string> AroundCourse::kind_words() {
-  return {"half", "bell", "sector", "ramp", "wave", "every", "comb", "fade"};
+  return {"half", "bell", "sector", "ramp", "wave", "every", "comb", "fade", "comes_and_goes"};
 }
 
 std::vector<AroundCourse> courses_around(const FlankGeometry& g) {

@@ -13,13 +13,14 @@ namespace trueflank::loop::gear_effects {
 
 /// A course as it stands among the shape values of a form.
 struct FlankCourse {
-  enum Kind { kWhole, kSlope, kStep, kKink, kBend, kRise, kBand, kBow, kVee };
+  enum Kind { kWhole, kSlope, kStep, kKink, kBend, kRise, kBand, kBow, kVee, kSwells };
   static constexpr std::size_t kValues = 4;
 
   Kind kind = kWhole;
   double mm = 0.0;  ///< its place (over the profile a diameter); kRise: within what it dies away
   double towards = 0.0;  ///< -1 root or lower end, 1 tip or upper end; 0: both (kRise)
-  double half_mm = 0.0;  ///< half its width (kBand), or over what it rises to either side (kStep)
+  double half_mm = 0.0;  ///< half its width (kBand) or period (kSwells: a wave between
+                         ///< nothing and all), or over what it rises to either side (kStep)
 
   [[nodiscard]] static FlankCourse at(const EffectShape& shape, std::size_t first) {
     return {static_cast<Kind>(static_cast<int>(shape[first])), shape[first + 1], shape[first + 2],
@@ -52,13 +53,13 @@ struct AroundCourse {
   /// A cosine on one half and nothing on the other; a bell; some teeth and no others; from nothing
   /// at a tooth evenly to all before it comes around; waves; the same on every tooth; one tooth in
   /// so many, counted from the first one of the gear on; from all at a tooth evenly to nothing
-  /// before it comes around.
-  enum Kind { kHalf, kBell, kSector, kRamp, kWave, kEvery, kComb, kFade };
+  /// before it comes around; in a wave between nothing and all.
+  enum Kind { kHalf, kBell, kSector, kRamp, kWave, kEvery, kComb, kFade, kComesAndGoes };
   static constexpr std::size_t kValues = 3;
 
   Kind kind = kHalf;
   double towards_deg = 0.0;  ///< where it is most, or begins (kRamp, kFade, kComb)
-  double half_deg = 0.0;     ///< half its width (kBell, kSector) or period (kWave, kComb)
+  double half_deg = 0.0;     ///< half its width (kBell, kSector) or period (the waves, kComb)
 
   /// One tooth in so many, from one on.
   [[nodiscard]] static AroundCourse comb(const FlankGeometry& geometry, int every, int first);
@@ -73,7 +74,8 @@ struct AroundCourse {
   /// A mean and waves, as the free form has them; a wide bell is nearly that.
   [[nodiscard]] bool is_of_free_form() const {
     constexpr double kWide_deg = 75.0;
-    return kind == kWave || kind == kEvery || (kind == kBell && half_deg > kWide_deg);
+    return kind == kWave || kind == kComesAndGoes || kind == kEvery ||
+           (kind == kBell && half_deg > kWide_deg);
   }
   [[nodiscard]] int values_sought() const {
     return kind == kEvery ? 0 : kind == kBell || kind == kSector || kind == kComb ? 2 : 1;

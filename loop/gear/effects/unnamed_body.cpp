@@ -19,8 +19,8 @@ namespace trueflank::loop::gear_effects {
 namespace {
 
 /// Where courses stand among the shape values.
-constexpr std::size_t kFaceOfWave = 2, kProfileOfPlace = 4,
-                      kFaceOfPlace = kProfileOfPlace + FlankCourse::kValues,
+constexpr std::size_t kFaceOfWave = 2, kTurnOfWave = kFaceOfWave + FlankCourse::kValues,
+                      kProfileOfPlace = 4, kFaceOfPlace = kProfileOfPlace + FlankCourse::kValues,
                       kEndsOfPlace = kFaceOfPlace + FlankCourse::kValues;
 
 /// No gate is as wide, to either side.
@@ -112,7 +112,7 @@ void add_keys_of_course(const std::string& along, EffectFamily& f) {
 /// (part/body_forms.cpp), and no candidate of its own.
 EffectFamily unnamed_body_wave() {
   EffectFamily f = described("unnamed_body_wave", {"order", "radial", "face_course", "face_mm",
-                                                   "face_towards", "face_half_mm"});
+                                                   "face_towards", "face_half_mm", "turns_deg"});
   f.columns = [](const EffectShape& shape) { return shape[0] == 0.0 ? 1 : 2; };
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     const bool on_flank = p.surface == Surface::kFlank;
@@ -122,21 +122,31 @@ EffectFamily unnamed_body_wave() {
                                                             : g.normal_z(p);
     const double size =
         on_flank ? worth * FlankCourse::at(shape, kFaceOfWave).value(g, 1.0, p.z_mm) : 0.0;
-    const double angle = shape[0] * p.polar_rad;
+    double angle = shape[0] * p.polar_rad;
+    if (shape[kTurnOfWave] != 0.0)
+      angle -= shape[0] * rad_from_deg(shape[kTurnOfWave]) * p.z_mm / g.face_width_mm();
     c[0] = size * std::cos(angle);
     if (shape[0] != 0.0) c[1] = size * std::sin(angle);
   };
   f.order = first_value;
   f.faces_a_direction = true;
   f.needs = [](const EffectShape& shape) {
-    const bool face = has_course(shape, kFaceOfWave);
+    const bool face = has_course(shape, kFaceOfWave) || shape[kTurnOfWave] != 0.0;
     return NeedsToBeSeen{.along_face = face, .several_heights = face};
   };
   f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
-  f.bends_over_the_face = [](const EffectShape& shape) { return has_course(shape, kFaceOfWave); };
+  f.bends_over_the_face = [](const EffectShape& shape) {
+    return has_course(shape, kFaceOfWave) || shape[kTurnOfWave] != 0.0;
+  };
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     std::vector<EffectShape> shapes;
     put_courses_beside(g, shape, kFaceOfWave, 1.0, shapes);
+    if (shape[kTurnOfWave] != 0.0)
+      for (const double off : {-15.0, -5.0, -1.5, -0.5, 0.5, 1.5, 5.0, 15.0})
+        if (shape[kTurnOfWave] != -off / shape[0]) {
+          shapes.push_back(shape);
+          shapes.back()[kTurnOfWave] += off / shape[0];
+        }
     // (a body goes over from one width to another more softly than a flank)
     constexpr double kSoftest = 0.2;  // of the face
     const FlankCourse course = FlankCourse::at(shape, kFaceOfWave);
@@ -150,16 +160,25 @@ EffectFamily unnamed_body_wave() {
     return shapes;
   };
   f.values_sought = [](const EffectShape& shape) {
-    return FlankCourse::at(shape, kFaceOfWave).values_sought();
+    return FlankCourse::at(shape, kFaceOfWave).values_sought() +
+           (shape[kTurnOfWave] != 0.0 ? 1 : 0);
   };
   f.term_keys = {{"order"},
                  {"moved", TermKey::Kind::kWord, {"along_normal", "outwards", "along_axis"}}};
   add_keys_of_course("face", f);
+  f.term_keys.push_back(number("turns_deg"));
   f.words = [](const ToldForm& told) {
     const EffectShape& shape = told.shape;
     const double direction_rad = told.direction_rad();
     std::string where = FlankCourse::at(shape, kFaceOfWave).words(told.geometry, 1.0);
     if (!where.empty()) where = ", " + where;
+    const double turns_deg = shape[kTurnOfWave];
+    const std::string turning =
+        turns_deg == 0.0
+            ? ""
+            : printed(" at the lower end, and turning with the height, %.3g deg ",
+                      std::abs(turns_deg)) +
+                  (turns_deg > 0.0 ? "counter-clockwise" : "clockwise") + " over the face";
     if (shape[0] == 0.0) {
       const int sign = told.sign();
       const std::string what = sign == 0 ? "wider or narrower" : sign > 0 ? "wider" : "narrower";
@@ -183,6 +202,7 @@ EffectFamily unnamed_body_wave() {
                                : printed(", by %.3g um of radius at most",
                                          std::hypot(told.amounts[0], told.amounts[1]))) +
               first_at(direction_rad, shape[0]).substr(shape[1] == 0.0 ? 1 : 0);
+    text += turning;
     return text + (shape[1] == 0.0 ? ", as from a light, a bath or a mould that differs by side"
                                    : ", as from what grips one end, or from hardening");
   };

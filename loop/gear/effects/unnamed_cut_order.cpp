@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Teeth that were not cut one beside the other: a drift from cut to cut jumps from tooth to tooth.
+// What the order shows in which teeth were cut: a drift from cut to cut where they were not cut one
+// beside the other, and what slips over some teeth and stays so to the last one.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -108,6 +109,65 @@ EffectFamily unnamed_cut_order() {
            printed(", then %d", (first - 1 + step) % z + 1) +
            printed(", %d and so on", (first - 1 + 2 * step) % z + 1) +
            ", as from a tool that wears or a machine that warms up";
+  };
+  return f;
+}
+
+/// From a tooth on, over so many, evenly from nothing to all, and all up to the last tooth before
+/// another: a belt that slips, a vice that gives way.
+EffectFamily unnamed_slip() {
+  constexpr std::size_t kTeeth = 1, kUntil = 2, kSides = 3;
+  EffectFamily f =
+      described("unnamed_slip", {"first_tooth", "teeth", "before_tooth", "opposite_flanks"});
+  f.is_drift = true;
+  set_columns(f, {[](const FlankGeometry& g, int tooth, const EffectShape& shape, double* factor) {
+                    const int since = teeth_since(g, tooth, shape[0]),
+                              until = teeth_since(g, static_cast<int>(shape[kUntil]), shape[0]);
+                    // (where it jumps on its first tooth it goes on once around)
+                    factor[0] =
+                        until == 0 || since < until ? std::min(1.0, since / shape[kTeeth]) : 0.0;
+                  },
+                  [](const FlankGeometry&, const Place& p, const EffectShape& shape) {
+                    return shape[kSides] != 0.0 ? static_cast<double>(p.side) : 1.0;
+                  }});
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    constexpr double kFewest = 2.0, kStays = 2.0;
+    std::vector<EffectShape> shapes;
+    const auto add = [&](double first, double last, double until) {
+      EffectShape beside{shape[0] - first, shape[kTeeth] + first + last, shape[kUntil] + until,
+                         shape[kSides]};
+      for (const std::size_t k : {std::size_t{0}, kUntil})
+        beside[k] = std::fmod(beside[k] - 1.0 + g.teeth(), g.teeth()) + 1.0;
+      const int left = teeth_since(g, static_cast<int>(beside[kUntil]), beside[0]);
+      if (beside[kTeeth] >= kFewest && left > beside[kTeeth] + kStays)
+        shapes.push_back(std::move(beside));
+    };
+    for (const double off : {-4.0, -2.0, -1.0, 1.0, 2.0, 4.0}) {
+      add(off, 0.0, 0.0);
+      add(0.0, off, 0.0);
+      add(off, -off, 0.0);
+      add(0.0, 0.0, off);
+    }
+    return shapes;
+  };
+  f.term_keys = {{"first_tooth"},
+                 {"teeth"},
+                 {"before_tooth"},
+                 {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}}};
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const int z = told.geometry.teeth(), first = static_cast<int>(shape[0]), sign = told.sign(),
+              last = (first - 1 + static_cast<int>(shape[kTeeth])) % z + 1,
+              until = (static_cast<int>(shape[kUntil]) + z - 2) % z + 1;
+    const bool aside = shape[kSides] != 0.0;
+    return std::string("the ") + (aside ? "place of the teeth" : "height of the flanks") +
+           printed(" goes evenly from tooth %d", first) + printed(" to tooth %d", last) +
+           (sign == 0 ? ""
+            : aside
+                ? std::string(", ") + turned(sign)
+                : std::string(sign > 0 ? ", towards more material" : ", towards less material")) +
+           printed(", and stays so up to tooth %d", until) +
+           ", as where a belt slips or something gives way while teeth are cut";
   };
   return f;
 }

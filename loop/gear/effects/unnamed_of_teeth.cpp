@@ -66,6 +66,16 @@ EffectFamily of_teeth(EffectFamily form) {
     }
     if (shape[1] == 1.0) return shapes;
     for (EffectShape& beside : sectors_beside(g, shape, 1)) shapes.push_back(std::move(beside));
+    // (where few teeth are traced the next one lies farther off)
+    constexpr double kFarthest = 0.15;  // of the gear
+    for (double far = 2.0; far <= kFarthest * g.teeth(); far *= 2.0)
+      for (const double off : {-far, far})
+        for (const bool first : {true, false}) {
+          EffectShape beside = shape;
+          if (first) beside[0] = std::fmod(shape[0] - 1.0 - off + g.teeth(), g.teeth()) + 1.0;
+          beside[1] += off;
+          if (beside[1] >= 2.0 && beside[1] < g.teeth()) shapes.push_back(std::move(beside));
+        }
     if (shape[2] > 0.0)
       for (const double longer : {-1.0, 1.0}) {
         const double edge = shape[2] + longer;

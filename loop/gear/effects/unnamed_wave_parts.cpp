@@ -170,6 +170,32 @@ EffectFamily unnamed_waves_growing() {
   return f;
 }
 
+/// About a place, and dying away to both sides of it: a burst of chatter.
+EffectFamily unnamed_waves_burst() {
+  EffectFamily f =
+      waves_of_size("unnamed_waves_burst", {"along", "wavelength_mm", "place_mm", "half_mm"},
+                    [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
+                      return bell(along(shape[0], p) - stands_at(g, shape[0], shape[2]), shape[3]);
+                    });
+  f.term_keys = {kAlong, number("wavelength_mm"), number("place_mm"), number("half_mm")};
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    constexpr double kWidest = 0.4;  // of the flank: wider ones are all over it
+    std::vector<EffectShape> shapes = lengths_beside(shape);
+    for (const EffectShape& moved : places_beside(g, {shape[0], shape[2]}))
+      shapes.push_back({shape[0], shape[1], moved[1], shape[3]});
+    for (const double times : kTimes)
+      if (times * shape[3] <= kWidest * std::abs(range_mm(g, shape[0])))
+        shapes.push_back({shape[0], shape[1], shape[2], times * shape[3]});
+    return shapes;
+  };
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    return waves(told) + ", in a burst " + at_place(told.geometry, shape[0], shape[2]) + ", " +
+           within(told.geometry, shape[0], shape[3], "dying away within ", " to either side");
+  };
+  return f;
+}
+
 /// Ever shorter towards one end: the waves in a mm change evenly, by a share of those in the middle
 /// to either side.
 EffectFamily unnamed_waves_changing() {
@@ -232,6 +258,16 @@ std::vector<Effect> parts_of_waves(const FlankGeometry& geometry, double face, F
       parts.push_back(
           {find_family("unnamed_waves_growing"), flank, {face, times * wavelength_mm, end}});
     }
+  for (const double times : {0.96, 1.0, 1.04})
+    for (const double share : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9})
+      for (const double half : {0.09, 0.15, 0.25}) {
+        const double at = low + share * range;
+        parts.push_back({find_family("unnamed_waves_burst"),
+                         flank,
+                         {face, times * wavelength_mm,
+                          face != 0.0 ? at : 2.0 * geometry.on_flank(1, 1, at, 0.0).radius_mm,
+                          half * std::abs(range)}});
+      }
   for (const double times : {0.75, 0.85, 0.93, 1.0, 1.08, 1.18, 1.33})
     for (const double change : {-0.5, -0.35, -0.2, -0.1, 0.1, 0.2, 0.35, 0.5})
       parts.push_back(

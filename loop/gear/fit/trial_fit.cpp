@@ -28,7 +28,11 @@ double square_of(const Eigen::MatrixXd& gram, const Eigen::VectorXd& b) {
 
 TrialFit::TrialFit(const FlankGeometry& geometry, const SharedTable& shared, const Patches& patches,
                    std::vector<Effect> effects, std::size_t stride, FlankCells cells)
-    : geometry_(geometry), shared_(shared), table_(shared_), effects_(std::move(effects)) {
+    : geometry_(geometry),
+      shared_(shared),
+      table_(shared_),
+      effects_(std::move(effects)),
+      cells_(cells) {
   const Observations& table = table_;
   trace_weight_.assign(static_cast<std::size_t>(table.traces), 0.0);
   std::vector<std::uint32_t> rows_asked;
@@ -549,14 +553,17 @@ void TrialFit::set_shapes(const std::vector<Effect>& effects) {
   solve();
 }
 
-bool TrialFit::put_effect(std::size_t effect, const Effect& other) {
-  if (effects_[effect] == other) return true;
-  if (!has_exact_kinds() || effect + 1 != effects_.size() ||
-      effects_[effect].columns() != other.columns())
+bool TrialFit::put_effect(std::size_t effect, const Effect& other, FlankCells cells) {
+  const bool in_cells = table_.points_mm.empty() || cells == cells_;
+  if (effects_[effect] == other && in_cells) return true;
+  if (!in_cells || effect + 1 != effects_.size() || effects_[effect].columns() != other.columns())
     return false;
   effects_[effect] = other;
   put_columns({effect});
-  put_products({effect});
+  if (has_exact_kinds())
+    put_products({effect});
+  else
+    gram_ = columns_.transpose() * columns_;
   solve();
   return true;
 }

@@ -48,9 +48,9 @@ class TrialFit {
   /// Puts shapes in place of those that effects have.
   void set_shapes(const std::vector<Effect>& effects);
   /// Puts another in the place of the last effect, digit for digit as if it had stood there from
-  /// the beginning. False, and nothing is done, where that would not be so: of scans, of another
-  /// number of columns.
-  [[nodiscard]] bool put_effect(std::size_t effect, const Effect& other);
+  /// the beginning. False, and nothing is done, where that would not be so: of scans in other
+  /// cells, of another number of columns.
+  [[nodiscard]] bool put_effect(std::size_t effect, const Effect& other, FlankCells cells = {});
   /// The columns of an effect, weighted, zeros of traces taken out: one row a value that counts.
   [[nodiscard]] Eigen::MatrixXd columns_of(const Effect& effect) const;
   /// What effects' columns change by from one shape to another, times coefficients: a column each.
@@ -138,6 +138,7 @@ class TrialFit {
   SharedTable shared_;
   const Observations& table_;
   std::vector<Effect> effects_;
+  FlankCells cells_;
   std::vector<Eigen::Index> first_column_;
   std::vector<Row> rows_;
   std::vector<double> root_, weight_;  ///< of the same, beside each other

@@ -495,12 +495,16 @@ std::vector<LikelyForms> LikeliestProducts::waves() const {
 }
 
 std::vector<LikelyForms> LikeliestProducts::growing_waves(int face) const {
-  constexpr double kFewestWaves = 2.0;
+  constexpr double kFewestWaves = 2.0, kApart_deg = 15.0;
+  constexpr int kMostOften = 3;  // a turn
   const FlankGeometry& g = cells_->geometry;
   std::vector<gear_effects::AroundCourse> courses;
   for (int first = 1; first <= g.teeth(); ++first)
     for (const auto kind : {gear_effects::AroundCourse::kRamp, gear_effects::AroundCourse::kFade})
       courses.push_back({kind, deg_from_rad(g.centre_rad(first))});
+  for (int order = 1; order <= kMostOften && 4 * order <= g.teeth(); ++order)
+    for (double at = 0.0; at < 360.0 / order; at += kApart_deg / order)
+      courses.push_back({gear_effects::AroundCourse::kComesAndGoes, at, 180.0 / order});
   return product_cells::likeliest_waves_by(g, cells_->teeth, face, kFewestWaves, courses);
 }
 

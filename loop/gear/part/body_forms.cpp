@@ -16,6 +16,7 @@
 #include "trueflank/base/units.h"
 #include "trueflank/loop/gear/effects/along_flank.h"
 #include "trueflank/loop/gear/effects/simple_courses.h"
+#include "trueflank/loop/gear/moved_sector.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/runs_along.h"
@@ -391,12 +392,17 @@ bool tell_as_places_around(PartModel& model, const std::vector<SideBySide>& runs
       return std::remainder(model.effects[e].order(), number) == 0.0;
     };
   };
+  // (a wave and its mean, along the face: a squared cosine)
+  const auto has_mean = [&](int number) {
+    return along.face && !alike.empty() && largest == double(number);
+  };
   const int z = model.geometry.teeth();
   std::set<int> numbers;
   if (is_evenly_spaced(runs, z)) numbers.insert(static_cast<int>(runs.size()));
   for (int number = 2; number <= kMostSwellings; ++number)
     if (largest > 0.0 && std::remainder(largest, number) == 0.0 &&
-        std::count_if(waves.begin(), waves.end(), is_of(number)) >= std::ptrdiff_t{kFewest})
+        std::count_if(waves.begin(), waves.end(), is_of(number)) + (has_mean(number) ? 1 : 0) >=
+            std::ptrdiff_t{kFewest})
       numbers.insert(number);
   const double pitch_deg = 360.0 / z;
   for (const int number : numbers) {
@@ -430,10 +436,24 @@ std::vector<Effect> body_waves(double order, double radial,
   std::vector<Effect> forms;
   for (const FlankCourse& course : courses) {
     EffectShape shape{order, radial};
-    shape.resize(kFace + FlankCourse::kValues);
+    shape.resize(kFace + FlankCourse::kValues + 1);  // (the last: by how much it turns)
     course.put_in(shape, kFace);
     forms.push_back({find_family("unnamed_body_wave"), FlankChoice::kBoth, std::move(shape)});
   }
+  return forms;
+}
+
+/// Whose crests turn with the height, as of a body that twists while it is out of round, beside
+/// those along a part of it.
+std::vector<Effect> body_waves_by_height(const FlankGeometry& geometry, double order) {
+  constexpr double kLeast_deg = 40.0, kMost_deg = 320.0;  // of a wave
+  std::vector<Effect> forms = body_waves(order, 1.0, coarse_courses(geometry, 1.0));
+  const Effect whole = body_waves(order, 1.0, {{}}).front();
+  for (double turns = kLeast_deg; turns <= kMost_deg; turns += kLeast_deg)
+    for (const double sign : {-1.0, 1.0}) {
+      forms.push_back(whole);
+      forms.back().shape.back() = sign * turns / order;
+    }
   return forms;
 }
 
@@ -478,6 +498,42 @@ bool tell_as_wider_part(PartModel& model) {
 
 }  // namespace
 
+bool tell_as_views(PartModel& model) {
+  constexpr int kMostMore = 9;       // values
+  constexpr double kClearly = 25.0;  // chi-square
+  if (model.table->points_mm.empty()) return false;
+  Indices all, names;
+  bool around = false;
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    const Effect& effect = model.effects[e];
+    const Runs runs = runs_of(model.geometry, effect, Flanks::kOfEither);
+    const bool scales = effect.family->displacement_mm && effect.columns() == 1;
+    if (effect.family->tells_order_along_profile || effect.family == find_family("unnamed_views") ||
+        effect.family == find_family("unnamed_spiral") ||
+        !(runs == Runs::kOtherwise || runs == Runs::kNowhere || scales))
+      continue;
+    all.push_back(e);
+    around = around || runs == Runs::kOtherwise;
+    if (moves_the_teeth(effect)) names.push_back(e);
+  }
+  if (!around || all.size() < 2) return false;
+  CheapestAnswer best{.least = cost_of(model, model.effects)};
+  for (const Indices& set : with_and_without(all, names)) {
+    if (set.size() < 2) continue;
+    const auto fit = fit_of(model, without(model.effects, set));
+    for (const Effect& form :
+         views_and_spirals(model.geometry, model.table, model.patches, *fit->residuals_um())) {
+      std::vector<Effect> with = one_form_for(model, set, {form}, {}, kMostMore);
+      // (more views follow what fewer do, and a little of the error)
+      if (!with.empty() && cost_of(model, with) < best.least - kClearly)
+        best.ask(model, std::move(with), set);
+    }
+  }
+  if (best.effects.empty()) return false;
+  put_in_place_of(model, best.these, best.effects);
+  return true;
+}
+
 bool tell_as_body_wave(PartModel& model) {
   std::map<double, Indices> of_order;
   std::set<double> over_face;
@@ -491,8 +547,8 @@ bool tell_as_body_wave(PartModel& model) {
     if (effect.needs().along_face) over_face.insert(order);
   }
   for (const double order : over_face)
-    if (order > 1.0 && tell_as_wave_of(model, of_order[order],
-                                       body_waves(order, 1.0, coarse_courses(model.geometry, 1.0))))
+    if (order > 1.0 &&
+        tell_as_wave_of(model, of_order[order], body_waves_by_height(model.geometry, order)))
       return true;
   const bool is_helical = model.geometry.normal_z(model.geometry.on_flank(
                               1, 1, model.geometry.root_form_roll_mm(), 0.0)) != 0.0;

@@ -8,6 +8,10 @@ namespace trueflank::loop {
 /// A body that is out of round along a part of its height, for what goes around the gear in waves
 /// of one order, along the face or not.
 [[nodiscard]] bool tell_as_body_wave(PartModel& model);
+
+/// Views of a scan that do not meet, or a radius that drifts once around, for what goes around the
+/// gear in waves, on single teeth and on all: a scale, too, and lobes, may be such pieces.
+[[nodiscard]] bool tell_as_views(PartModel& model);
 /// Places of the body that stand out or lie back, by direction and height: one for forms of teeth
 /// that lie side by side; several, evenly spaced, for waves of an order and its multiples, or for
 /// forms of teeth that lie so; one for each run of teeth where a comb has parts of them.

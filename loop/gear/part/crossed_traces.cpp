@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Forms along traces that grow from trace to trace of a flank: profiles at several heights, leads
-// at several diameters. What they have in the mean was told as a form, or a name, alike all over.
+// at several diameters, and that come and go. What they have in the mean was told as a form, or a
+// name, alike all over.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
+#include "trueflank/loop/gear/effects/along_flank.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/effects/simple_courses.h"
 #include "trueflank/loop/gear/part/one_form.h"
@@ -51,7 +55,51 @@ std::vector<Effect> growing_courses(const FlankGeometry& geometry, int along, Fl
   return forms;
 }
 
+/// Forms along one direction times what comes and goes in the other one in waves of a length.
+std::vector<Effect> swelling_courses(const FlankGeometry& geometry, const FlankCourse& course,
+                                     int along, double length_mm, FlankChoice flank) {
+  constexpr double kPhases = 8.0;
+  const auto other = static_cast<double>(1 - along);
+  std::vector<Effect> forms;
+  for (double phase = 0.0; phase < kPhases; phase += 1.0) {
+    const double share = length_mm / std::abs(gear_effects::range_mm(geometry, other));
+    const FlankCourse swells{FlankCourse::kSwells,
+                             gear_effects::place_at(geometry, other, phase / kPhases * share), 0.0,
+                             0.5 * length_mm};
+    EffectShape shape(2 * FlankCourse::kValues + 1);
+    course.put_in(shape, along == 0 ? 0 : FlankCourse::kValues);
+    swells.put_in(shape, along == 0 ? FlankCourse::kValues : 0);
+    forms.push_back({find_family("unnamed_crossed"), flank, std::move(shape)});
+  }
+  return forms;
+}
+
 }  // namespace
+
+bool tell_as_swelling_form(PartModel& model) {
+  constexpr std::size_t kAcross = 2;
+  for (std::size_t w = first_told_here(model); w < model.effects.size(); ++w) {
+    const Effect& waves = model.effects[w];
+    if (waves.family != find_family("unnamed_crossed_waves")) continue;
+    const FlankCourse course = FlankCourse::at(waves.shape, kAcross);
+    const int along = waves.shape[0] != 0.0 ? 0 : 1;
+    if (course.kind == FlankCourse::kWhole) continue;
+    const Runs runs = along == 0 ? Runs::kOverProfile : Runs::kOverFace;
+    for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+      const Effect& mean = model.effects[e];
+      // (a name with a place, too, may be the mean)
+      const bool name = mean.family->named && !mean.family->shape_is_continuous;
+      if (e == w || name || mean.flank != waves.flank || mean.columns() != 1 ||
+          runs_of(model.geometry, mean, Flanks::kOfEither) != runs)
+        continue;
+      if (put_one_form_for(
+              model, {std::min(e, w), std::max(e, w)},
+              swelling_courses(model.geometry, course, along, waves.shape[1], waves.flank)))
+        return true;
+    }
+  }
+  return false;
+}
 
 std::vector<Effect> with_form_growing_across(const PartModel& model,
                                              std::vector<std::size_t>& these) {

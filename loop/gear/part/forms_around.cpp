@@ -185,14 +185,20 @@ std::vector<RemainderFinding> forms_around(const PartModel& model, const CourseO
                                            int teeth) {
   constexpr std::size_t kMost = 2;
   const auto [rest, beside] = beside_forms(model, course);
-  const std::vector<std::vector<Effect>> sets =
-      forms_from_tooth_to_tooth(model.geometry.teeth(), course);
+  std::vector<std::vector<Effect>> sets = forms_from_tooth_to_tooth(model.geometry.teeth(), course);
+  if (course.profile == 0.0 && course.face == 0.0)
+    for (const auto& [flank, opposite] :
+         {std::pair(FlankChoice::kBoth, 0.0), std::pair(FlankChoice::kBoth, 1.0),
+          std::pair(FlankChoice::kLeft, 0.0), std::pair(FlankChoice::kRight, 0.0)})
+      sets.push_back(slips_around(model.geometry.teeth(), flank, opposite));
+  std::erase_if(sets, [](const std::vector<Effect>& set) { return set.empty(); });
   constexpr std::size_t kMovedEach = 4;  // and where each could come to
   std::size_t tried = 0;
   // (forms of which there are far more are no looks of the others)
   const auto is_of_many = [](const std::vector<Effect>& set) {
     return set.front().family == find_family("unnamed_cut_order") ||
            set.front().family == find_family("unnamed_changing_wave") ||
+           set.front().family == find_family("unnamed_slip") ||
            set.front().family == find_family("unnamed_sectors");
   };
   for (const std::vector<Effect>& set : sets)
@@ -266,9 +272,17 @@ std::vector<RemainderFinding> forms_around(const PartModel& model, const CourseO
     }
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
+  // (one tooth in so many beside another form is a drift of teeth that are cut in such steps)
+  const auto is_of = [](const RemainderFinding& one, const char* family) {
+    return one.effect->family == find_family(family);
+  };
   std::vector<RemainderFinding> starts;
+  bool steps = false, comb = false;
   for (auto& [cost, finding] : found) {
-    if (starts.size() == kMost) break;
+    const bool is_comb = is_of(finding, "unnamed_comb");
+    if (starts.size() >= kMost && !(steps && is_comb && !comb)) continue;
+    steps = steps || is_of(finding, "unnamed_cut_order");
+    comb = comb || is_comb;
     finding.square = cost;
     starts.push_back(std::move(finding));
   }
@@ -331,7 +345,7 @@ void take_form_around(PartModel& model, const CourseOverFlanks& course, int teet
   double least = own - kClearlyLess;
   std::unique_ptr<PartModel> best;
   for (const RemainderFinding& start : forms_around(model, course, teeth)) {
-    if (!(start.square < own)) continue;
+    if (!(start.square < own) && start.effect->family != find_family("unnamed_comb")) continue;
     if (!seen && start.p_value > kRemainderLevel / model.options.tables) continue;
     PartOptions options = model.options;
     options.given.resize(first_told_here(model));
@@ -513,6 +527,29 @@ void take_form_around(PartModel& model) {
     take_form_around(model, {.profile = 1.0}, profiles);
   if (const int helices = teeth_of(ObservationKind::kHelix); helices >= kFewestTeeth)
     take_form_around(model, {.face = 1.0}, helices);
+}
+
+bool add_form_that_is_left(PartModel& model) {
+  constexpr double kSure = 1e-6, kClearly = 25.0;  // of chance, all places asked; of cost
+  if (!has_single_values_only(model)) return false;
+  for (const RemainderFinding& finding : model.remainder) {
+    if (!finding.effect || finding.local || !(finding.p_value < kSure) ||
+        !is_told_apart(model, *finding.effect, model.effects))
+      continue;
+    std::vector<Effect> with = model.effects;
+    with.push_back(*finding.effect);
+    refine_nearby(model.geometry, model.table, model.patches, with);
+    // (the noise is taken for more than it is while such a form stands in it)
+    const auto cost = [&](const std::vector<Effect>& effects) {
+      const auto fit = fit_of(model, effects);
+      return cost_around(model.geometry, fit->observations(), fit->residual_square(), effects);
+    };
+    if (cost(with) > cost(model.effects) - kClearly) continue;
+    put_in_place_of(model, {}, with);
+    model.discovery.chosen.back().p_value = finding.p_value;
+    return true;
+  }
+  return false;
 }
 
 void tell_waves_as_pattern(PartModel& model) {

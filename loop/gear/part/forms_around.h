@@ -21,4 +21,8 @@ void take_form_around(PartModel& model);
 /// have; of more teeth it takes several waves.
 void tell_waves_as_pattern(PartModel& model);
 
+/// What is left of values one a tooth, as sure as can be, beside what was told: a second form from
+/// tooth to tooth, that the choice of one did not lead to. True where one was added.
+[[nodiscard]] bool add_form_that_is_left(PartModel& model);
+
 }  // namespace trueflank::loop

@@ -74,6 +74,14 @@ std::vector<Effect> forms_along(const FlankGeometry& geometry, double face, Flan
   return forms;
 }
 
+std::vector<Effect> roofs_along(const FlankGeometry& geometry, double face, FlankChoice flank) {
+  std::vector<Effect> roofs;
+  for (const double share : {0.3, 0.4, 0.5, 0.6, 0.7})  // (one that leans far is a kink)
+    roofs.push_back(
+        {find_family("unnamed_kink"), flank, {face, place_at(geometry, face, share), 0.0}});
+  return roofs;
+}
+
 std::vector<Effect> sags_along(const FlankGeometry& geometry, double face, FlankChoice flank) {
   std::vector<Effect> sags;
   for (const double share : {0.36, 0.44, 0.56, 0.64})
@@ -448,6 +456,15 @@ Effect s_over(int face, FlankChoice flank) {
 std::vector<Effect> forms_and_s_along(const FlankGeometry& geometry, int face, FlankChoice flank) {
   std::vector<Effect> forms = forms_along(geometry, face, flank, true);
   forms.push_back(s_over(face, flank));
+  return forms;
+}
+
+std::vector<Effect> slips_around(int teeth, FlankChoice flank, double opposite) {
+  constexpr double kFewest = 2.0, kStays = 3.0;
+  std::vector<Effect> forms;
+  for (double over = kFewest; over < 0.6 * teeth; over = std::ceil(1.4 * over))
+    for (double first = 2.0; first + over + kStays <= teeth + 1.0; first += 1.0)
+      forms.push_back({find_family("unnamed_slip"), flank, {first, over, 1.0, opposite}});
   return forms;
 }
 

@@ -15,6 +15,10 @@ namespace trueflank::loop {
 [[nodiscard]] std::vector<Effect> forms_along(const FlankGeometry& geometry, double face,
                                               FlankChoice flank, bool bands);
 
+/// Roofs along the profile (0) or the face (1), to start from.
+[[nodiscard]] std::vector<Effect> roofs_along(const FlankGeometry& geometry, double face,
+                                              FlankChoice flank);
+
 /// Hollows or swellings from end to end of the profile (0) or the face (1), to start from.
 [[nodiscard]] std::vector<Effect> sags_along(const FlankGeometry& geometry, double face,
                                              FlankChoice flank);
@@ -64,6 +68,9 @@ inline constexpr int kMostOfComb = 8;  ///< one tooth in so many, at most
 /// both flanks, or of one. Those of a set differ by their shape alone, and have as many columns.
 [[nodiscard]] std::vector<std::vector<Effect>> forms_from_tooth_to_tooth(
     int teeth, const CourseOverFlanks& course);
+
+/// What slips over some teeth, and stays so up to the last tooth of the gear, to start from.
+[[nodiscard]] std::vector<Effect> slips_around(int teeth, FlankChoice flank, double opposite);
 
 /// Bent axes, and axes with a kink to start from.
 [[nodiscard]] std::vector<Effect> bows_of_the_axis();

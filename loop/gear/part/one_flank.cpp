@@ -55,6 +55,38 @@ bool tell_pair_of_one_flank(PartModel& model) {
   return false;
 }
 
+/// A form of both flanks that one of them has alone: with half of it, or all, on the other one it
+/// was found first.
+bool tell_form_of_one_flank_alone(PartModel& model) {
+  constexpr double kClearly = 25.0;  // chi-square
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    const Effect own = model.effects[e];
+    const std::vector<std::string>& names = own.family->shape_names;
+    if (own.family->named || own.flank != FlankChoice::kBoth || own.columns() != 1 ||
+        names.empty() || names.back() != "opposite_flanks" || own.shape.size() != names.size())
+      continue;
+    double least = fit_of(model, model.effects)->residual_square() - kClearly;
+    Effect best = own;
+    for (const FlankChoice flank : {FlankChoice::kLeft, FlankChoice::kRight}) {
+      Effect one{own.family, flank, own.shape};
+      one.shape.back() = 0.0;
+      model.effects[e] = one;
+      const double square = fit_of(model, model.effects)->residual_square();
+      if (square >= least) continue;
+      least = square;
+      best = std::move(one);
+    }
+    model.effects[e] = own;
+    if (best == own) continue;
+    std::vector<Effect> with = model.effects;
+    with.erase(with.begin() + static_cast<std::ptrdiff_t>(e));
+    with.push_back(std::move(best));
+    put_in_place_of(model, {e}, with);
+    return true;
+  }
+  return false;
+}
+
 bool is_level_of_both(const PartModel& model, std::size_t e) {
   const Effect& effect = model.effects[e];
   return e >= first_told_here(model) && effect.columns() == 1 &&
@@ -166,6 +198,8 @@ bool tell_level_in_two_pieces(PartModel& model) {
 }  // namespace
 
 void tell_what_one_flank_has(PartModel& model) {
+  while (tell_form_of_one_flank_alone(model)) {
+  }
   while (tell_pair_of_one_flank(model)) {
   }
   (void)tell_comb_of_one_flank(model);

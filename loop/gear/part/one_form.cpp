@@ -224,6 +224,27 @@ bool tell_as_bow(PartModel& model) {
   return !all.empty() && put_one_form_for(model, all, bows);
 }
 
+/// Squares that some rows of a large scan leave, as those of all rows: the search takes so many;
+/// what is chosen is judged by all.
+struct SquaresOfSome {
+  std::size_t stride = 1;
+  double now = 0.0, now_of_some = 0.0;  ///< of the effects as they are
+
+  explicit SquaresOfSome(const PartModel& model)
+      : stride(std::max<std::size_t>(1, model.table->rows.size() / kMostRowsSought)) {
+    if (stride == 1) return;
+    now = fit_of(model, model.effects)->residual_square();
+    now_of_some = TrialFit(model.geometry, model.table, model.patches, model.effects, stride)
+                      .residual_square();
+  }
+  [[nodiscard]] double of_all(double square) const {
+    return stride == 1 ? square : now + static_cast<double>(stride) * (square - now_of_some);
+  }
+
+ private:
+  static constexpr std::size_t kMostRowsSought = 150000;
+};
+
 }  // namespace
 
 std::vector<Effect> best_form_sought(const PartModel& model, std::vector<Effect> rest,
@@ -238,11 +259,12 @@ std::vector<Effect> best_form_sought(const PartModel& model, std::vector<Effect>
   };
   std::vector<Best> best;
   rest.emplace_back();
-  std::optional<TrialFit> kept;  // (of traces the next form is put in place of the last one)
+  const SquaresOfSome squares(model);
+  std::optional<TrialFit> kept;  // (the next form is put in place of the last one where it can be)
   const auto fit_of_rest = [&]() -> TrialFit& {
-    if (!kept || !kept->put_effect(at, rest.back()))
-      kept.emplace(model.geometry, model.table, model.patches, rest, 1,
-                   cells_for(model.geometry, rest));
+    const FlankCells cells = cells_for(model.geometry, rest);
+    if (!kept || !kept->put_effect(at, rest.back(), cells))
+      kept.emplace(model.geometry, model.table, model.patches, rest, squares.stride, cells);
     return *kept;
   };
   for (std::size_t first = 0, next = 0; first < forms.size(); first = next) {
@@ -255,8 +277,9 @@ std::vector<Effect> best_form_sought(const PartModel& model, std::vector<Effect>
     const std::vector<TrialFit::Trial> trials = fit_of_rest().with_shapes(at, shapes, 1e300);
     Best own{.square = most.on_the_grid};
     for (std::size_t i = 0; i < shapes.size(); ++i) {
-      if (trials[i].retained < kToldApart || !(trials[i].square < own.square)) continue;
-      own = {trials[i].square, forms[first]};
+      const double square = squares.of_all(trials[i].square);
+      if (trials[i].retained < kToldApart || !(square < own.square)) continue;
+      own = {square, forms[first]};
       own.form.shape = shapes[i];
     }
     if (own.form.family != nullptr) best.push_back(std::move(own));
@@ -276,7 +299,7 @@ std::vector<Effect> best_form_sought(const PartModel& model, std::vector<Effect>
     for (Best& one : best) {
       if (!moves(one.form)) continue;
       rest.back() = one.form;
-      one.square = move_alone(model.geometry, fit_of_rest(), at, one.form.shape);
+      one.square = squares.of_all(move_alone(model.geometry, fit_of_rest(), at, one.form.shape));
     }
   std::size_t chosen = 0;
   for (std::size_t i = 1; i < best.size(); ++i)
@@ -443,6 +466,9 @@ void tell_as_one_form(PartModel& model) {
         return true;
     }
     std::vector<Effect> forms = forms_along(model.geometry, face, flank, set.size() > 1);
+    if (set.size() > 1)
+      for (Effect& roof : roofs_along(model.geometry, face, flank))
+        forms.push_back(std::move(roof));
     // (A bow and a slope alone are two names, and a sag a little off.)
     constexpr int kValuesOfSag = 3;
     if (values(set) >= kValuesOfSag)
@@ -456,9 +482,10 @@ void tell_as_one_form(PartModel& model) {
   const auto once = [&] {
     if (tell_as_moved_part(model) || tell_as_sector(model) || tell_of_the_other_teeth(model) ||
         tell_as_drift(model) || tell_from_nothing(model) || tell_as_drift_aside(model) ||
-        tell_as_swellings_at_end(model) || tell_as_repeating(model) || tell_as_body_wave(model) ||
-        tell_as_body_place(model) || tell_as_field(model) || tell_as_facing(model) ||
-        tell_as_product(model) || tell_as_corner(model) || tell_as_dish_of_all_flanks(model) ||
+        tell_as_swellings_at_end(model) || tell_as_repeating(model) || tell_as_views(model) ||
+        tell_as_body_wave(model) || tell_as_body_place(model) || tell_as_field(model) ||
+        tell_as_facing(model) || tell_as_product(model) || tell_as_swelling_form(model) ||
+        tell_as_corner(model) || tell_as_dish_of_all_flanks(model) ||
         tell_as_alternating_wave(model) || tell_as_walking_waves(model) ||
         tell_as_waves_of_both_flanks(model) || tell_as_name_with_a_place(model, 0) ||
         tell_as_name_with_a_place(model, 1))

@@ -114,6 +114,10 @@ void explain_part(PartModel& model) {
   model.remainder = remainder_of(model, model.effects, RemainderOf::kAll);
   while (structure_is_left(model) && name_what_is_left(model))
     model.remainder = remainder_of(model, model.effects, RemainderOf::kAll);
+  while (structure_is_left(model) && add_form_that_is_left(model)) {
+    tell_what_one_flank_has(model);
+    model.remainder = remainder_of(model, model.effects, RemainderOf::kAll);
+  }
   if (!structure_is_left(model)) return;
   if (model.remainder.empty() && model.effects != model.left_beside) ask_what_is_left(model);
   if (!structure_is_left(model)) return;

@@ -8,9 +8,11 @@
 #include <optional>
 #include <set>
 
+#include "trueflank/loop/gear/effects/along_flank.h"
 #include "trueflank/loop/gear/fit/flank_courses.h"
 #include "trueflank/loop/gear/part/fields.h"
 #include "trueflank/loop/gear/part/forms_of_teeth.h"
+#include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/names.h"
 #include "trueflank/loop/gear/part/names_beside_forms.h"
 #include "trueflank/loop/gear/part/odd_forms.h"
@@ -347,6 +349,30 @@ void tell_level_of_forms(PartModel& model) {
   }
 }
 
+/// A groove or ridge whose middle lies at an end is what the flanks do towards that end.
+void tell_bands_at_an_end(PartModel& model) {
+  constexpr double kNothing = 9.0;  // chi-square
+  constexpr double kNear = 0.5;     // of its half width
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    const Effect& band = model.effects[e];
+    if (band.family != find_family("unnamed_band")) continue;
+    const double face = band.shape[0],
+                 range_mm = std::abs(gear_effects::range_mm(model.geometry, face)),
+                 share = gear_effects::share_at(model.geometry, face, band.shape[1]);
+    if (std::min(share, 1.0 - share) * range_mm > kNear * band.shape[2]) continue;
+    std::vector<Effect> forms = forms_along(model.geometry, face, band.flank, false);
+    constexpr std::size_t kOpposite = 3;
+    if (band.shape.size() > kOpposite)
+      for (Effect& form : forms) form.shape.push_back(band.shape[kOpposite]);
+    const std::vector<Effect> with = with_best_form(model, without(model.effects, {e}), forms, {});
+    if (with.empty() || fit_of(model, with)->residual_square() >
+                            fit_of(model, model.effects)->residual_square() + kNothing)
+      continue;
+    put_in_place_of(model, {e}, with);
+    return tell_bands_at_an_end(model);
+  }
+}
+
 }  // namespace
 
 void tell_parts_of_a_form(PartModel& model) {
@@ -357,6 +383,7 @@ void tell_parts_of_a_form(PartModel& model) {
   tell_forms_of_teeth(model);
   tell_forms_of_sectors(model);
   tell_as_one_form(model);
+  tell_bands_at_an_end(model);
   join_flanks(model);
   tell_parts_beside_forms(model);
   tell_parts_of_a_sector(model);

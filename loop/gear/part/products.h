@@ -15,6 +15,10 @@ namespace trueflank::loop {
 /// tooth: a taper, a twist and a bow of a cure that reaches less far down.
 [[nodiscard]] bool tell_as_product(PartModel& model);
 
+/// A form along one direction that comes and goes in the other one, for waves that it weighs and
+/// the mean that these have beside them: ridges of one bad tooth of a hob.
+[[nodiscard]] bool tell_as_swelling_form(PartModel& model);
+
 /// The answer with a form along traces that grows from nothing across them, the last, in place of
 /// these, where profiles were traced at several heights or leads at several diameters: a hollow
 /// that is deeper towards one end was told as its mean, with a name. Empty where none says clearly

@@ -478,6 +478,40 @@ bool tell_as_walking_waves(PartModel& model) {
   return false;
 }
 
+namespace {
+
+/// Waves aslant over either flank that are one of both: those of a cross hatch, that nearly undo
+/// each other along lines, are found on one flank first.
+bool tell_as_slant_waves_of_both_flanks(PartModel& model) {
+  constexpr double kAlike = 0.1;  // waves over the flank
+  const EffectFamily* marks = find_family("unnamed_marks");
+  const auto is_slant_of = [&](const Effect& effect, FlankChoice flank) {
+    return effect.family == marks && effect.flank == flank;
+  };
+  for (std::size_t a = first_told_here(model); a < model.effects.size(); ++a)
+    for (std::size_t b = first_told_here(model); b < model.effects.size(); ++b) {
+      const Effect &left = model.effects[a], &right = model.effects[b];
+      if (!is_slant_of(left, FlankChoice::kLeft) || !is_slant_of(right, FlankChoice::kRight) ||
+          left.shape[2] != right.shape[2])
+        continue;
+      // (the other way round it is the same wave)
+      const double sign =
+          left.shape[0] * right.shape[0] + left.shape[1] * right.shape[1] < 0.0 ? -1.0 : 1.0;
+      if (std::abs(left.shape[0] - sign * right.shape[0]) > kAlike ||
+          std::abs(left.shape[1] - sign * right.shape[1]) > kAlike ||
+          (sign < 0.0 && left.shape[2] != 0.0))
+        continue;
+      const Effect both{marks,
+                        FlankChoice::kBoth,
+                        {0.5 * (left.shape[0] + sign * right.shape[0]),
+                         0.5 * (left.shape[1] + sign * right.shape[1]), left.shape[2]}};
+      if (put_one_form_for(model, {std::min(a, b), std::max(a, b)}, {both})) return true;
+    }
+  return false;
+}
+
+}  // namespace
+
 bool tell_as_waves_of_both_flanks(PartModel& model) {
   constexpr double kAlike = 0.02, kNone = 0.25;  // of their length; of a wave
   const EffectFamily *waviness = find_family("unnamed_waviness"),
@@ -522,7 +556,7 @@ bool tell_as_waves_of_both_flanks(PartModel& model) {
               forms))
         return true;
     }
-  return false;
+  return tell_as_slant_waves_of_both_flanks(model);
 }
 
 }  // namespace trueflank::loop

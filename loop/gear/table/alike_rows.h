@@ -23,6 +23,7 @@ struct AlikeRows {
 /// How many parts the flanks are divided into over profile and face; 0: they are not.
 struct FlankCells {
   int profile = 0, face = 0;
+  bool operator==(const FlankCells&) const = default;
 };
 
 /// Of a scan, rows of one cell of the flanks, on the same side, as if all stood where the one
