@@ -242,7 +242,7 @@ struct SquaresOfSome {
   }
 
  private:
-  static constexpr std::size_t kMostRowsSought = 150000;
+  static constexpr std::size_t kMostRowsSought = 100000;
 };
 
 }  // namespace
