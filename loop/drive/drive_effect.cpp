@@ -6,15 +6,18 @@
 
 namespace trueflank::loop {
 
+double faded(double speed_rpm, double scale_rpm, double exponent) {
+  const double x = speed_rpm / scale_rpm;
+  return std::exp(exponent == 1.0 ? -x : -x * x);
+}
+
 double DriveContext::friction(const BenchPoint& p) const {
   double mu = designed_friction(p) + state.shift + (p.forward ? -0.5 : 0.5) * state.difference;
   if (state.load_value != 0.0)
     mu += state.load_value *
           std::pow(std::max(load_nm(p), 0.0) / table.most_load_nm, state.load_exponent);
-  if (state.mixed_value != 0.0) {
-    const double x = p.speed_rpm / state.mixed_speed_rpm;
-    mu += state.mixed_value * std::exp(state.mixed_exponent == 1.0 ? -x : -x * x);
-  }
+  if (state.mixed_value != 0.0)
+    mu += state.mixed_value * faded(p.speed_rpm, state.mixed_speed_rpm, state.mixed_exponent);
   return mu;
 }
 

@@ -11,10 +11,14 @@
 #include "trueflank/loop/drive/bench_table.h"
 #include "trueflank/loop/drive/drive_model.h"
 #include "trueflank/loop/drive/efficiency_curve.h"
+#include "trueflank/loop/drive/last_values.h"
 #include "trueflank/loop/result/effect_facts.h"
 #include "trueflank/loop/result/loop_result.h"
 
 namespace trueflank::loop {
+
+/// exp(-(n/n0)^exponent) of a speed, by the exponent 1 or 2.
+[[nodiscard]] double faded(double speed_rpm, double scale_rpm, double exponent);
 
 /// What is found so far of all that changes friction, and of what the sensors misread: about it effects are linear.
 struct DriveState {

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
-#include "trueflank/base/units.h"
 #include "trueflank/loop/drive/drive_model.h"
 
 namespace trueflank::loop {
@@ -45,28 +42,6 @@ class LastEfficiency {
   bool forward_;
   double friction_ = -1.0, value_ = 0.0;
   double from_ = -1.0, to_ = -1.0, secant_ = 0.0;
-};
-
-/// Values of one function that were asked last: shapes that are tried ask for the same few at every
-/// row. Not for several threads.
-class LastValues {
- public:
-  template <class Function>
-  [[nodiscard]] double at(double argument, const Function& function) {
-    for (const auto& [known, value] : kept_)
-      if (known == argument) return value;
-    const double value = function(argument);
-    kept_[next_] = {argument, value};
-    next_ = (next_ + 1) % kept_.size();
-    return value;
-  }
-
- private:
-  struct Kept {
-    double argument = kNaN, value = kNaN;
-  };
-  std::array<Kept, 4> kept_ = {};
-  std::size_t next_ = 0;
 };
 
 }  // namespace trueflank::loop

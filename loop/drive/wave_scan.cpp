@@ -2,8 +2,8 @@
 #include "trueflank/loop/drive/wave_scan.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
 #include <utility>
 
@@ -25,7 +25,10 @@ constexpr Eigen::Index kOrdersAtOnce = 512;  ///< orders at once
 struct PartRow {
   double angle_rad = 0.0, left = 0.0, lever = 0.0;
   bool forward = true;
-  std::array<double, 2> size{};  ///< with the load, with the speed
+  double with_load = 0.0, with_speed = 0.0;  ///< what makes a wave larger
+  [[nodiscard]] double size(double how) const {
+    return how == double(kWaveEven) ? 1.0 : how == double(kWaveWithLoad) ? with_load : with_speed;
+  }
 };
 
 /// A load, speed, temperature or place of the run in bins, and where they part.
@@ -51,6 +54,13 @@ struct PartSum {
     cc += other.cc;
     cs += other.cs;
     weight += other.weight;
+  }
+  void remove(const PartSum& other) {
+    c -= other.c;
+    s -= other.s;
+    cc -= other.cc;
+    cs -= other.cs;
+    weight -= other.weight;
   }
   /// What the wave takes off.
   [[nodiscard]] Eigen::ArrayXf power() const {
@@ -85,8 +95,8 @@ class PartScan {
                        .left = left[static_cast<Eigen::Index>(i)] / p.sigma_nm,
                        .lever = in_direction(context, p, 0.0) / p.sigma_nm,
                        .forward = p.forward,
-                       .size = {size_of_wave(context, p, kWaveWithLoad),
-                                size_of_wave(context, p, kWaveWithSpeed)}});
+                       .with_load = size_of_wave(context, p, kWaveWithLoad),
+                       .with_speed = size_of_wave(context, p, kWaveWithSpeed)});
       const double square = rows_.back().left * rows_.back().left;
       sum_ += square;
       fourths_ += square * square;
@@ -178,10 +188,7 @@ class PartScan {
     if (phases_of_ != first_line_) fill_phases(lines);
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const PartRow& row = rows_[i];
-      const double size = how == double(kWaveEven)       ? 1.0
-                          : how == double(kWaveWithLoad) ? row.size[0]
-                                                         : row.size[1];
-      const double weight = size * row.lever;
+      const double weight = row.size(how) * row.lever;
       PartSum& sum = sums_[2 * static_cast<std::size_t>(parted.bin[i]) + (row.forward ? 0 : 1)];
       const auto at = static_cast<Eigen::Index>(i);
       const auto x = cosine_.col(at), y = sine_.col(at);
@@ -244,11 +251,7 @@ class PartScan {
       for (std::size_t b = 0; b + 1 < bins; ++b) {
         add_direction(below, sums_[2 * b], sums_[2 * b + 1], direction, 1.0F);
         PartSum above = all, over = all;
-        above.c -= below.c;
-        above.s -= below.s;
-        above.cc -= below.cc;
-        above.cs -= below.cs;
-        above.weight -= below.weight;
+        above.remove(below);
         over.c = above.c - below.c;
         over.s = above.s - below.s;
         judge({how, direction, parted.over, kWaveBelow}, below, parted.place[b]);
@@ -295,9 +298,7 @@ class PartScan {
     double c = 0.0, s = 0.0, cc = 0.0, cs = 0.0, ss = 0.0;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const PartRow& row = rows_[i];
-      double weight = row.lever * (kind.how == double(kWaveEven)       ? 1.0
-                                   : kind.how == double(kWaveWithLoad) ? row.size[0]
-                                                                       : row.size[1]);
+      double weight = row.lever * row.size(kind.how);
       if (kind.direction == 1.0 && !row.forward) continue;
       if (kind.direction == 2.0 && row.forward) continue;
       if (kind.direction == kAsItReads && row.forward) weight = -weight;
@@ -357,13 +358,11 @@ class PartScan {
     const auto at = std::lower_bound(parted.place.begin(), parted.place.end(), place);
     const double low = at <= parted.place.begin() + 1 ? -1.0 : *(at - 2),
                  high = parted.place.end() - at < 3 ? 2.0 : *(at + 2);
-    std::vector<double> shares, places;
+    std::vector<double> shares;
     for (const double share : parted.share)
       if (share > low && share < high) shares.push_back(share);
-    std::sort(shares.begin(), shares.end());
-    for (std::size_t k = 1; k < shares.size(); ++k)
-      if (shares[k] > shares[k - 1]) places.push_back(0.5 * (shares[k - 1] + shares[k]));
-    return places;
+    const auto all = static_cast<std::ptrdiff_t>(shares.size());
+    return places_between(std::move(shares), place, all);
   }
 
   const DriveContext& context_;

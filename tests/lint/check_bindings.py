@@ -7,9 +7,10 @@ its own for it.
 
 Usage: check_bindings.py [ROOT]
 """
-import pathlib
 import re
 import sys
+
+from complaints import root_of_sources, told
 
 BLANKED = re.compile(r"//[^\n]*|/\*.*?\*/|\"(?:[^\"\\\n]|\\.)*\"|'(?:[^'\\\n]|\\.)'", re.DOTALL)
 BINDING = re.compile(r"\bauto\s*&{0,2}\s*\[([\w\s,]+)\]")
@@ -65,13 +66,5 @@ def check(root):
     return complaints
 
 
-def main():
-    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[2])
-    complaints = check(root)
-    for complaint in complaints:
-        print(complaint)
-    return 1 if complaints else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(told(check(root_of_sources())))

@@ -6,10 +6,10 @@ CMake cannot: all folders share one include root. Also checked here, because it 
 through the tree: the licence line, kernels kept out of headers, Eigen's headers, every file listed for the build.
 Usage: check_layers.py [ROOT]
 """
-import os
-import pathlib
 import re
 import sys
+
+from complaints import root_of_sources, told
 
 # folder -> folders it may include besides itself. A room of a folder may have a row of its own.
 LAYERS = {
@@ -211,14 +211,10 @@ def check(root):
 
 
 def main():
-    default = os.environ.get("TRUEFLANK_SOURCE_DIR", pathlib.Path(__file__).parents[2])
-    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else default)
-    complaints, warnings = check(root)
+    complaints, warnings = check(root_of_sources())
     for warning in warnings:
         print("warning: " + warning)
-    for complaint in complaints:
-        print(complaint)
-    return 1 if complaints else 0
+    return told(complaints)
 
 
 if __name__ == "__main__":

@@ -12,6 +12,8 @@ import re
 import subprocess
 import sys
 
+from complaints import told
+
 ASKS = re.compile(r"^(\S+):\s+U (?:_*)(vsn?printf(?:_chk)?|to(?:lower|upper)|"
                   r"is(?:alnum|alpha|blank|cntrl|digit|graph|lower|print|punct|space|upper|xdigit)|ato[fil]|strtof|strtold|"
                   r"(?:isoc\d+_)?v?sscanf|setlocale|strcoll|strftime)$")
@@ -24,12 +26,10 @@ def check(listed):
 
 
 def main():
-    complaints = []
+    found = []
     for library in sys.argv[1:]:
-        complaints += check(subprocess.run(["nm", "-u", "-A", library], capture_output=True, text=True, check=True).stdout)
-    for complaint in complaints:
-        print(complaint)
-    return 1 if complaints or len(sys.argv) < 2 else 0
+        found += check(subprocess.run(["nm", "-u", "-A", library], capture_output=True, text=True, check=True).stdout)
+    return told(found) or len(sys.argv) < 2
 
 
 if __name__ == "__main__":

@@ -7,11 +7,11 @@ linker takes one destructor for both, and no compiler says so. Names in unnamed 
 
 Usage: check_names.py [ROOT]
 """
-import pathlib
 import re
 import sys
 
 import check_layers
+from complaints import root_of_sources, told
 
 NAMESPACE = re.compile(r"^(?:inline )?namespace ?([\w:]*) \{(?!.*\})")
 CLOSE = re.compile(r"^\}  ?// (?:inline )?namespace")
@@ -42,13 +42,5 @@ def check(root):
             for name, where in sorted(files.items()) if len(where) > 1]
 
 
-def main():
-    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[2])
-    complaints = check(root)
-    for complaint in complaints:
-        print(complaint)
-    return 1 if complaints else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(told(check(root_of_sources())))

@@ -6,12 +6,11 @@ tl::expected itself does not say it.
 
 Usage: check_nodiscard.py [ROOT]
 """
-import os
-import pathlib
 import re
 import sys
 
 import check_layers
+from complaints import root_of_sources, told
 
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 # A declaration begins after one of ; { } : or a preprocessor line. What stands before the return
@@ -44,13 +43,5 @@ def check(root):
     return complaints
 
 
-def main():
-    default = os.environ.get("TRUEFLANK_SOURCE_DIR", pathlib.Path(__file__).parents[2])
-    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else default)
-    complaints = check(root)
-    print("\n".join(complaints), end="\n" if complaints else "")
-    return 1 if complaints else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(told(check(root_of_sources())))

@@ -6,9 +6,10 @@ Usage: check_recipe.py [ROOT]
 """
 import json
 import os
-import pathlib
 import re
 import sys
+
+from complaints import root_of_sources, told
 
 STEP = re.compile(r"^\s*- run: (.*)$", re.MULTILINE)
 TARGET = re.compile(r"\b(?:add_executable|add_library|add_custom_target)\(\s*([\w-]+)")
@@ -61,13 +62,5 @@ def check(root):
             for complaint in of_command(command.strip())]
 
 
-def main():
-    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[2])
-    complaints = check(root)
-    for complaint in complaints:
-        print(complaint)
-    return 1 if complaints else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(told(check(root_of_sources())))

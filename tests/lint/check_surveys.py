@@ -6,9 +6,10 @@ a constant or function of the file that does, and the filters of `trueflank_camp
 Usage: check_surveys.py [ROOT]
 """
 import fnmatch
-import pathlib
 import re
 import sys
+
+from complaints import root_of_sources, told
 
 FEWER = {"survey_size", "survey_of", "is_surveyed", "surveys_are_whole", "seldom_fewer"}
 TEST = re.compile(r"TEST(?:_F|_P)?\((\w+),\s*(\w+)\)")
@@ -55,13 +56,5 @@ def check(root):
     return complaints
 
 
-def main():
-    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[2])
-    complaints = check(root)
-    for complaint in complaints:
-        print(complaint)
-    return 1 if complaints else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(told(check(root_of_sources())))

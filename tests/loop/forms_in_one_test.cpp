@@ -3,12 +3,10 @@
 
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 
-#include "tests/loop/made_gears.h"
-#include "tests/support/survey_size.h"
+#include "tests/loop/one_drawn_form.h"
 
 // Forms that were told in pieces, or as the mean that they have, with a name: across traces, on
 // both flanks, on one tooth, around the gear, in one view of a scan.
@@ -17,44 +15,17 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-double bell(double off, double half) { return std::exp(-off * off / (half * half)); }
-
-/// A number of a draw, evenly between two.
-class Draw {
- public:
-  explicit Draw(unsigned seed) : random_(seed * 7919U + 11U) {}
-  double between(double least, double most) {
-    return std::uniform_real_distribution<double>(least, most)(random_);
-  }
-  int whole(int least, int most) {
-    return std::uniform_int_distribution<int>(least, most)(random_);
-  }
-
- private:
-  std::mt19937_64 random_;
-};
-
-double amplitude(const loop::LoopResult& result) {
-  const auto& terms = result.effects.front().terms;
-  return terms.empty() ? 0.0 : terms.front().amplitude();
-}
-
-/// One effect, of this size within a share of it, and nothing is left.
-void expect_one_of_size(const loop::LoopResult& result, double um, double within) {
-  EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
-  ASSERT_EQ(result.effects.size(), 1U) << list(result);
-  EXPECT_NEAR(amplitude(result), um, within * um) << list(result);
-}
+Draw draw_of(unsigned seed) { return Draw(seed * 7919U + 11U); }
 
 TEST(FormsAcrossTraces, AHollowThatGrowsTowardsAnEndIsNoWearOfItsMean) {
   for (unsigned seed = 1; seed <= survey_size(3U, 8U); ++seed) {
-    Draw draw(seed);
+    Draw draw = draw_of(seed);
     const MadeGear gear = spur(draw.whole(19, 37));
     const double um = draw.between(6.0, 14.0), at = draw.between(-0.3, 0.3),
                  half = draw.between(0.25, 0.4);
     const bool upper = draw.whole(0, 1) == 1;
     const auto made = grown([&](auto&, const FlankSpot& s, auto&) {
-      return -um * bell(s.u - at, half) * 0.5 * (1.0 + (upper ? s.v : -s.v));
+      return -um * bell_of(s.u - at, half) * 0.5 * (1.0 + (upper ? s.v : -s.v));
     });
     InspectionOptions options = traced({2, 5, 8, 11, 14, 17}, draw.between(0.6, 1.1), seed);
     options.helix = false;
@@ -70,11 +41,11 @@ TEST(FormsAcrossTraces, AHollowThatGrowsTowardsAnEndIsNoWearOfItsMean) {
 
 TEST(FormsAcrossTraces, AHollowThatIsAlikeAtEveryHeightKeepsItsName) {
   for (unsigned seed = 1; seed <= survey_size(2U, 8U); ++seed) {
-    Draw draw(seed);
+    Draw draw = draw_of(seed);
     const MadeGear gear = spur(draw.whole(19, 37));
     const double um = draw.between(5.0, 12.0), half = draw.between(0.25, 0.4);
     const auto made =
-        grown([&](auto&, const FlankSpot& s, auto&) { return -um * bell(s.u, half); });
+        grown([&](auto&, const FlankSpot& s, auto&) { return -um * bell_of(s.u, half); });
     InspectionOptions options = traced({2, 5, 8, 11, 14, 17}, 0.8, seed);
     options.helix = false;
     options.profiles_at = {-0.7, 0.0, 0.7};
@@ -86,7 +57,7 @@ TEST(FormsAcrossTraces, AHollowThatIsAlikeAtEveryHeightKeepsItsName) {
 
 TEST(WavesOfBothFlanks, OppositeOnesAreOneWave) {
   for (unsigned seed = 1; seed <= survey_size(2U, 6U); ++seed) {
-    Draw draw(seed);
+    Draw draw = draw_of(seed);
     const MadeGear gear = spur(draw.whole(17, 33));
     const double um = draw.between(9.0, 15.0), waves = draw.between(2.1, 3.4),
                  phase = draw.between(0.0, 6.28);
@@ -101,7 +72,7 @@ TEST(WavesOfBothFlanks, OppositeOnesAreOneWave) {
 
 TEST(ProductOfCourses, GrowsTowardsTheMiddle) {
   for (unsigned seed = 1; seed <= survey_size(2U, 6U); ++seed) {
-    Draw draw(seed);
+    Draw draw = draw_of(seed);
     const MadeGear gear = seed % 2 == 0 ? ring(44) : spur(draw.whole(23, 40));
     const double um = draw.between(16.0, 30.0);
     const auto made = grown([&](auto&, const FlankSpot& s, auto&) {
@@ -119,7 +90,7 @@ TEST(ProductOfCourses, GrowsTowardsTheMiddle) {
 // Powder pressed from both ends: the radius grows from a neutral zone.
 TEST(WaistOfTheBody, IsOneRadius) {
   for (unsigned seed = 1; seed <= survey_size(2U, 6U); ++seed) {
-    Draw draw(seed);
+    Draw draw = draw_of(seed);
     const MadeGear gear = spur(draw.whole(20, 30));
     const double um = draw.between(50.0, 80.0), at = draw.between(-0.4, 0.4),
                  sign = draw.whole(0, 1) == 1 ? 1.0 : -1.0;
@@ -138,7 +109,7 @@ TEST(WaistOfTheBody, IsOneRadius) {
 // Points moved along the axis, twice per turn: no lobes beside a stretch that take each other back.
 TEST(SaddleOfAHelicalGear, IsOneMoveAlongTheAxisAndHasNoName) {
   for (unsigned seed = 1; seed <= survey_size(2U, 6U); ++seed) {
-    Draw draw(seed);
+    Draw draw = draw_of(seed);
     const MadeGear gear = helical(draw.whole(28, 40), draw.between(18.0, 28.0));
     const double um = draw.between(40.0, 70.0), phase = draw.between(0.0, 6.28);
     const Process bent{.move_um = [&](const MadeGear&, const FlankSpot&, const Vec3& p) -> Vec3 {
@@ -148,19 +119,20 @@ TEST(SaddleOfAHelicalGear, IsOneMoveAlongTheAxisAndHasNoName) {
     ASSERT_EQ(result.effects.size(), 1U) << list(result);
     EXPECT_TRUE(tells(result, "moved along the axis by their direction, twice per turn"))
         << list(result);
-    EXPECT_NEAR(amplitude(result), um, 0.06 * um) << list(result);
+    EXPECT_NEAR(amplitude_of_first(result), um, 0.06 * um) << list(result);
   }
 }
 
 TEST(ScratchOfOneTooth, IsOneLineAslant) {
   for (unsigned seed = 1; seed <= survey_size(2U, 6U); ++seed) {
-    Draw draw(seed);
+    Draw draw = draw_of(seed);
     const MadeGear gear = spur(draw.whole(13, 19));
     const int tooth = draw.whole(2, 12), side = draw.whole(0, 1) == 1 ? 1 : -1;
     const double um = draw.between(45.0, 70.0), slope = draw.between(0.5, 0.9),
                  sign = draw.whole(0, 1) == 1 ? 1.0 : -1.0;
     const auto made = grown([&](auto&, const FlankSpot& s, auto&) {
-      return s.tooth == tooth && s.side == side ? sign * um * bell(s.u - slope * s.v, 0.18) : 0.0;
+      return s.tooth == tooth && s.side == side ? sign * um * bell_of(s.u - slope * s.v, 0.18)
+                                                : 0.0;
     });
     const auto result = close(gear, scan_of(gear, {made}, scanned(7000, 4.0, seed)), true);
     expect_one_of_size(result, um, 0.15);
@@ -172,7 +144,7 @@ TEST(ScratchOfOneTooth, IsOneLineAslant) {
 
 TEST(BrokenCornerOfOneTooth, IsACornerAndNoHollowOfTheBody) {
   for (unsigned seed = 1; seed <= survey_size(2U, 6U); ++seed) {
-    Draw draw(seed);
+    Draw draw = draw_of(seed);
     const MadeGear gear = spur(draw.whole(17, 24));
     const int tooth = draw.whole(3, 15);
     const double um = draw.between(70.0, 110.0), reach = draw.between(0.55, 0.75);
@@ -191,7 +163,7 @@ TEST(BrokenCornerOfOneTooth, IsACornerAndNoHollowOfTheBody) {
 
 TEST(BlocksAroundTheGear, AreSectorsThatComeAgain) {
   for (unsigned seed = 1; seed <= survey_size(3U, 8U); ++seed) {
-    Draw draw(seed);
+    Draw draw = draw_of(seed);
     const int number = draw.whole(2, 4), teeth = number * draw.whole(9, 14), apart = teeth / number,
               count = draw.whole(3, apart - 3), first = draw.whole(1, apart);
     const MadeGear gear = spur(teeth);
@@ -211,7 +183,7 @@ TEST(BlocksAroundTheGear, AreSectorsThatComeAgain) {
 
 TEST(ViewsOfAScan, ThatDoNotMeetAreOnePartWhateverTeethTheEdgeRunsThrough) {
   for (unsigned seed = 1; seed <= survey_size(2U, 6U); ++seed) {
-    Draw draw(seed);
+    Draw draw = draw_of(seed);
     const MadeGear gear = spur(draw.whole(21, 32));
     const double um = draw.between(30.0, 50.0), towards = draw.between(0.0, 6.28),
                  pitch = 2.0 * kPi / gear.teeth,
@@ -231,7 +203,7 @@ TEST(ViewsOfAScan, ThatDoNotMeetAreOnePartWhateverTeethTheEdgeRunsThrough) {
 // A disturbance of the probe: every trace has it, each in a phase of its own.
 TEST(HumOfTraces, IsToldOfAllFlanksAndIsNoNoise) {
   for (unsigned seed = 1; seed <= survey_size(2U, 8U); ++seed) {
-    Draw draw(seed);
+    Draw draw = draw_of(seed);
     const MadeGear gear = spur(draw.whole(23, 41));
     const double um = draw.between(4.0, 7.0), noise = draw.between(0.8, 1.2),
                  periods = draw.between(8.0, 14.0);
@@ -263,7 +235,7 @@ TEST(HumOfTraces, IsToldOfAllFlanksAndIsNoNoise) {
 // One wild value of an index beside leads of other teeth: no lean of a profile, and no gap.
 TEST(WildValueOfAnIndex, IsNoLeanOfAToothThatWasNotTraced) {
   for (unsigned seed = 1; seed <= survey_size(4U, 16U); ++seed) {
-    Draw draw(seed);
+    Draw draw = draw_of(seed);
     const MadeGear gear = spur(draw.whole(22, 34));
     InspectionOptions options = traced({1, 6, 17}, 1.1, seed);
     options.profile = false;

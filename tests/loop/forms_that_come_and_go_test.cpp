@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 
-#include "tests/loop/made_gears.h"
-#include "tests/support/survey_size.h"
+#include "tests/loop/one_drawn_form.h"
 
 // One cause each that was told in two pieces or with a false name: what comes and goes between
 // nothing and all, turns with the height, drifts or jumps around the body, or slips and stays.
@@ -18,23 +16,8 @@ namespace {
 
 constexpr double kPiOfForms = std::numbers::pi;
 
-/// DrawnForm of a draw, evenly between two.
-class DrawnForm {
- public:
-  explicit DrawnForm(unsigned seed) : random_(seed * 6151U + 29U) {}
-  double between(double least, double most) {
-    return std::uniform_real_distribution<double>(least, most)(random_);
-  }
-  int whole(int least, int most) {
-    return std::uniform_int_distribution<int>(least, most)(random_);
-  }
-  double sign() { return whole(0, 1) == 1 ? 1.0 : -1.0; }
+Draw come_and_go_draw(unsigned seed) { return Draw(seed * 6151U + 29U); }
 
- private:
-  std::mt19937_64 random_;
-};
-
-double bump_of_one(double off, double half) { return std::exp(-off * off / (half * half)); }
 double direction_of_tooth(const MadeGear& gear, const FlankSpot& s) {
   return 2.0 * kPiOfForms * (s.tooth - 1) / gear.teeth;
 }
@@ -49,45 +32,52 @@ Process moved_by_radius(Amount amount) {
   }};
 }
 
-double size_of_first(const loop::LoopResult& result) {
-  const auto& terms = result.effects.front().terms;
-  return terms.empty() ? 0.0 : terms.front().amplitude();
+/// Traces of one kind on some teeth, in a noise that is drawn.
+enum class Traced { kProfilesAlone, kHelicesAlone };
+loop::LoopResult traced_with(const MadeGear& gear, const Process& made, Traced kind,
+                             const std::vector<int>& teeth, double noise_um, unsigned seed) {
+  InspectionOptions options = traced(teeth, noise_um, seed);
+  (kind == Traced::kProfilesAlone ? options.helix : options.profile) = false;
+  return close(gear, inspection_of(gear, {made}, options));
+}
+loop::LoopResult index_of_made(const MadeGear& gear, const Process& made, double noise_um,
+                               unsigned seed) {
+  InspectionOptions options = traced({}, noise_um, seed);
+  options.profile = options.helix = false;
+  options.index = true;
+  return close(gear, inspection_of(gear, {made}, options));
 }
 
 void expect_one_nameless(const loop::LoopResult& result, double um, double within,
                          const std::string& words) {
-  EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
-  ASSERT_EQ(result.effects.size(), 1U) << list(result);
+  expect_one_of_size(result, um, within);
   EXPECT_FALSE(has_name(result)) << list(result);
-  EXPECT_NEAR(size_of_first(result), um, within * um) << list(result);
   EXPECT_TRUE(tells(result, words)) << list(result);
 }
 
 TEST(Roofs, AreNoSlopeBesideAKink) {
   for (unsigned seed = 1; seed <= survey_size(2U, 8U); ++seed) {
-    DrawnForm draw(seed);
+    Draw draw = come_and_go_draw(seed);
     const MadeGear gear = spur(draw.whole(19, 37));
     const double um = draw.between(6.0, 12.0), at = draw.between(-0.25, 0.25), sign = draw.sign();
     const auto made = grown([&](auto&, const FlankSpot& s, auto&) {
       return sign * um * std::abs(s.u - at) / (1.0 + std::abs(at));
     });
-    InspectionOptions options = traced({2, 6, 10, 14, 18}, draw.between(0.6, 1.0), seed);
-    options.helix = false;
-    expect_one_nameless(close(gear, inspection_of(gear, {made}, options)), um, 0.1,
-                        "straight on in another direction to both sides");
+    expect_one_nameless(traced_with(gear, made, Traced::kProfilesAlone, {2, 6, 10, 14, 18},
+                                    draw.between(0.6, 1.0), seed),
+                        um, 0.1, "straight on in another direction to both sides");
   }
 }
 
 TEST(SpokesOfARim, AreSoManyHollowsAboutAHeight) {
   for (unsigned seed = 1; seed <= survey_size(2U, 6U); ++seed) {
-    DrawnForm draw(seed);
+    Draw draw = come_and_go_draw(seed);
     const MadeGear gear = spur(draw.whole(20, 30));
     const int number = draw.whole(3, 6);
     const double um = draw.between(45.0, 70.0), half = draw.between(0.35, 0.5),
                  at = draw.between(-0.2, 0.2), from = draw.between(0.0, 6.0);
     const auto pulled = moved_by_radius([=](double angle, const FlankSpot& s) {
-      return -um * std::pow(std::cos(0.5 * number * (angle - from)), 2) *
-             bump_of_one(s.v - at, half);
+      return -um * std::pow(std::cos(0.5 * number * (angle - from)), 2) * bell_of(s.v - at, half);
     });
     expect_one_nameless(close(gear, scan_of(gear, {pulled}, scanned(5500, 5.0, seed)), true), um,
                         0.1, std::to_string(number) + " hollows of the body evenly spaced");
@@ -96,7 +86,7 @@ TEST(SpokesOfARim, AreSoManyHollowsAboutAHeight) {
 
 TEST(WavesThatComeAndGo, AreOneWaveAroundTheGear) {
   for (unsigned seed = 1; seed <= survey_size(2U, 8U); ++seed) {
-    DrawnForm draw(seed);
+    Draw draw = come_and_go_draw(seed);
     const MadeGear gear = spur(draw.whole(30, 44));
     const double um = draw.between(5.0, 9.0), waves = draw.between(6.0, 10.0),
                  from = draw.between(0.0, 6.0);
@@ -104,17 +94,16 @@ TEST(WavesThatComeAndGo, AreOneWaveAroundTheGear) {
       return um * 0.5 * (1.0 + std::cos(direction_of_tooth(g, s) - from)) *
              std::cos(kPiOfForms * waves * s.v);
     });
-    InspectionOptions options =
-        traced({1, 3, 6, 8, 11, 14, 17, 19, 22, 25, 27, 29}, draw.between(0.5, 0.8), seed);
-    options.profile = false;
-    expect_one_nameless(close(gear, inspection_of(gear, {made}, options)), um, 0.1,
-                        "coming and going once per turn");
+    expect_one_nameless(
+        traced_with(gear, made, Traced::kHelicesAlone, {1, 3, 6, 8, 11, 14, 17, 19, 22, 25, 27, 29},
+                    draw.between(0.5, 0.8), seed),
+        um, 0.1, "coming and going once per turn");
   }
 }
 
 TEST(CrossHatch, IsOfBothFlanks) {
   for (unsigned seed = 1; seed <= survey_size(2U, 4U); ++seed) {
-    DrawnForm draw(seed);
+    Draw draw = come_and_go_draw(seed);
     const MadeGear gear = spur(draw.whole(13, 17));
     const double um = draw.between(35.0, 50.0), along = draw.between(1.8, 2.6),
                  over = draw.between(3.0, 4.2);
@@ -130,7 +119,7 @@ TEST(CrossHatch, IsOfBothFlanks) {
 
 TEST(TwistedOval, IsOneWaveThatTurnsWithTheHeight) {
   for (unsigned seed = 1; seed <= survey_size(2U, 6U); ++seed) {
-    DrawnForm draw(seed);
+    Draw draw = come_and_go_draw(seed);
     const MadeGear gear = spur(draw.whole(24, 34));
     const int order = draw.whole(2, 3);
     const double um = draw.between(30.0, 45.0), turns = draw.sign() * draw.between(1.2, 2.6),
@@ -145,7 +134,7 @@ TEST(TwistedOval, IsOneWaveThatTurnsWithTheHeight) {
 
 TEST(ViewsEachMoved, AreViewsAndNoLobes) {
   for (unsigned seed = 1; seed <= survey_size(2U, 6U); ++seed) {
-    DrawnForm draw(seed);
+    Draw draw = come_and_go_draw(seed);
     const MadeGear gear = spur(draw.whole(24, 36));
     const int views = draw.whole(4, 7);
     const double from = draw.between(0.0, 6.2);
@@ -165,7 +154,7 @@ TEST(ViewsEachMoved, AreViewsAndNoLobes) {
 
 TEST(SpiralScan, IsADriftOfTheRadiusAndNoScale) {
   for (unsigned seed = 1; seed <= survey_size(2U, 6U); ++seed) {
-    DrawnForm draw(seed);
+    Draw draw = come_and_go_draw(seed);
     const MadeGear gear = spur(draw.whole(24, 40));
     const double um = draw.between(45.0, 70.0), from = draw.between(0.0, 6.2), sign = draw.sign();
     const auto warmed = moved_by_radius([=](double angle, const FlankSpot&) {
@@ -182,49 +171,44 @@ TEST(SpiralScan, IsADriftOfTheRadiusAndNoScale) {
 
 TEST(SlipsOfTheDrive, RiseOverSomeTeethAndStay) {
   for (unsigned seed = 1; seed <= survey_size(2U, 8U); ++seed) {
-    DrawnForm draw(seed);
+    Draw draw = come_and_go_draw(seed);
     const MadeGear gear = spur(draw.whole(36, 56));
     const int first = draw.whole(6, 12), over = draw.whole(6, 11);
     const double um = draw.between(4.0, 7.0), sign = draw.sign();
     const auto made = grown([&](auto&, const FlankSpot& s, auto&) {
       return s.side * sign * um * std::clamp((s.tooth - first) / double(over), 0.0, 1.0);
     });
-    InspectionOptions options = traced({}, draw.between(0.3, 0.5), seed);
-    options.profile = options.helix = false;
-    options.index = true;
-    expect_one_nameless(close(gear, inspection_of(gear, {made}, options)), um, 0.12,
+    expect_one_nameless(index_of_made(gear, made, draw.between(0.3, 0.5), seed), um, 0.12,
                         "and stays so up to tooth " + std::to_string(gear.teeth));
   }
 }
 
 TEST(BurstsOfChatter, AreWavesAboutAPlace) {
   for (unsigned seed = 1; seed <= survey_size(2U, 6U); ++seed) {
-    DrawnForm draw(seed);
+    Draw draw = come_and_go_draw(seed);
     const MadeGear gear = spur(draw.whole(22, 38));
     const double um = draw.between(7.0, 13.0), waves = draw.between(9.0, 12.0),
                  at = draw.between(-0.3, 0.3), half = draw.between(0.22, 0.34);
     const auto made = grown([&](auto&, const FlankSpot& s, auto&) {
-      return um * bump_of_one(s.v - at, half) * std::cos(kPiOfForms * waves * s.v);
+      return um * bell_of(s.v - at, half) * std::cos(kPiOfForms * waves * s.v);
     });
-    InspectionOptions options = traced({2, 7, 12, 17, 21}, draw.between(0.7, 1.1), seed);
-    options.profile = false;
-    expect_one_nameless(close(gear, inspection_of(gear, {made}, options)), um, 0.12,
-                        "in a burst at");
+    expect_one_nameless(traced_with(gear, made, Traced::kHelicesAlone, {2, 7, 12, 17, 21},
+                                    draw.between(0.7, 1.1), seed),
+                        um, 0.12, "in a burst at");
   }
 }
 
 TEST(EndReliefs, AreNoGrooveAtTheFirstPoint) {
   for (unsigned seed = 1; seed <= survey_size(3U, 10U); ++seed) {
-    DrawnForm draw(seed);
+    Draw draw = come_and_go_draw(seed);
     const MadeGear gear = spur(draw.whole(22, 38));
     const double um = draw.between(3.0, 5.0), over = draw.between(0.3, 0.45);
     const bool upper = draw.whole(0, 1) == 1;
     const auto made = grown([&](auto&, const FlankSpot& s, auto&) {
       return s.side > 0 ? -um * std::max(over - 1.0 + (upper ? s.v : -s.v), 0.0) / over : 0.0;
     });
-    InspectionOptions options = traced({2, 7, 12, 17, 21}, draw.between(0.4, 0.6), seed);
-    options.profile = false;
-    const auto result = close(gear, inspection_of(gear, {made}, options));
+    const auto result = traced_with(gear, made, Traced::kHelicesAlone, {2, 7, 12, 17, 21},
+                                    draw.between(0.4, 0.6), seed);
     EXPECT_FALSE(tells(result, "a groove")) << list(result);
     EXPECT_EQ(result.effects.size(), 1U) << list(result);
   }
@@ -232,7 +216,7 @@ TEST(EndReliefs, AreNoGrooveAtTheFirstPoint) {
 
 TEST(CombsOfEitherFlank, AreNotToldInHalvesOfBoth) {
   for (unsigned seed = 1; seed <= survey_size(2U, 8U); ++seed) {
-    DrawnForm draw(seed);
+    Draw draw = come_and_go_draw(seed);
     const MadeGear gear = spur(60);
     const int first = draw.whole(1, 3), second = draw.whole(1, 5);
     const double um = draw.between(5.0, 9.0);
@@ -240,10 +224,7 @@ TEST(CombsOfEitherFlank, AreNotToldInHalvesOfBoth) {
       if (s.side > 0) return (s.tooth - first) % 3 == 0 ? um : 0.0;
       return (s.tooth - second) % 5 == 0 ? -0.8 * um : 0.0;
     });
-    InspectionOptions options = traced({}, 0.5, seed);
-    options.profile = options.helix = false;
-    options.index = true;
-    const auto result = close(gear, inspection_of(gear, {made}, options));
+    const auto result = index_of_made(gear, made, 0.5, seed);
     EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
     ASSERT_EQ(result.effects.size(), 2U) << list(result);
     for (const auto& effect : result.effects) EXPECT_NE(effect.flank, "both") << list(result);
@@ -252,13 +233,13 @@ TEST(CombsOfEitherFlank, AreNotToldInHalvesOfBoth) {
 
 TEST(RidgesThatComeAndGo, AreNoRidgeBesideWaves) {
   for (unsigned seed = 1; seed <= survey_size(2U, 6U); ++seed) {
-    DrawnForm draw(seed);
+    Draw draw = come_and_go_draw(seed);
     const MadeGear gear = spur(draw.whole(14, 20));
     const double um = draw.between(35.0, 55.0), at = draw.between(-0.2, 0.3),
                  waves = draw.between(2.6, 4.2), from = draw.between(0.0, 6.0),
                  sign = seed % 2 == 0 ? 1.0 : -1.0;  // (a hollow is half a wear)
     const auto cut = grown([&](auto&, const FlankSpot& s, auto&) {
-      return s.side > 0 ? sign * um * bump_of_one(s.u - at, 0.22) *
+      return s.side > 0 ? sign * um * bell_of(s.u - at, 0.22) *
                               std::pow(std::cos(0.5 * kPiOfForms * waves * s.v - from), 2)
                         : 0.0;
     });

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/loop/told_as_one_form.h"
 
@@ -12,9 +16,24 @@
 namespace trueflank::test {
 namespace {
 
-double turned(const DrawnRow& r, double order, double phase) {
-  return std::cos(2.0 * M_PI * order * r.input_turns - phase);
-}
+/// A wave over the turns of the input, of a drawn order, size (in scatters of a row) and phase.
+struct DrawnWave {
+  int order = 0;
+  double size = 0.0, phase = 0.0;
+
+  DrawnWave(DrawnBench& bench, std::pair<int, int> orders, std::pair<double, double> sizes)
+      : order(bench.whole(orders.first, orders.second)),
+        size(bench.scatter_nm() * bench.between(sizes.first, sizes.second)),
+        phase(bench.between(0.0, 6.28)) {}
+  [[nodiscard]] double at(const DrawnRow& r) const {
+    return size * std::cos(2.0 * M_PI * order * r.input_turns - phase);
+  }
+  /// The wave, and at which place of the range it changes.
+  [[nodiscard]] std::string text(double place = NAN) const {
+    return "order " + std::to_string(order) +
+           (std::isnan(place) ? "" : " at " + std::to_string(place));
+  }
+};
 
 /// A place of a quantity that so much of the rows lies below.
 template <class Quantity>
@@ -34,61 +53,48 @@ DrawnBench turning(std::uint64_t seed, bool both) {
 TEST(PartsOfRangesOnBenches, AWaveThatTurnsOverAtASpeedIsOneForm) {
   expect_all(7100, 3, [](Answers& answers, std::uint64_t seed) {
     DrawnBench bench = turning(seed, seed % 2 == 0);
-    const int order = bench.whole(1, 3);
-    const double size = bench.scatter_nm() * bench.between(5.0, 9.0),
-                 phase = bench.between(0.0, 6.28),
-                 at = place_of(bench, bench.between(0.35, 0.65), [](auto&r) { return r.rpm; });
-    closes_as(
-        answers, seed, "order " + std::to_string(order) + " at " + std::to_string(at), bench,
-        [&](const DrawnRow& r) { return (r.rpm > at ? -size : size) * turned(r, order, phase); },
-        {{"amplitude_nm", size}, {"order", order}, {"turns_over_at_rpm", at}});
+    const DrawnWave wave(bench, {1, 3}, {5.0, 9.0});
+    const double at = place_of(bench, bench.between(0.35, 0.65), [](auto& r) { return r.rpm; });
+    closes_as(answers, seed, wave.text(at), bench,
+              [&](const DrawnRow& r) { return r.rpm > at ? -wave.at(r) : wave.at(r); },
+              {{"amplitude_nm", wave.size}, {"order", wave.order}, {"turns_over_at_rpm", at}});
   });
 }
 
 TEST(PartsOfRangesOnBenches, AWaveOfSmallLoadsAloneIsOneForm) {
   expect_all(7200, 3, [](Answers& answers, std::uint64_t seed) {
     DrawnBench bench = turning(seed, seed % 2 == 0);
-    const int order = bench.whole(1, 3);
-    const double size = bench.scatter_nm() * bench.between(7.0, 12.0),
-                 phase = bench.between(0.0, 6.28),
-                 up_to = place_of(bench, bench.between(0.4, 0.65), [](auto&r) { return r.share; });
-    closes_as(
-        answers, seed, "order " + std::to_string(order) + " to " + std::to_string(up_to), bench,
-        [&](const DrawnRow& r) { return r.share < up_to ? size * turned(r, order, phase) : 0.0; },
-        {{"amplitude_nm", size},
-         {"order", order},
-         {"below_load_nm", up_to * bench.most_output_nm / bench.ratio}});
+    const DrawnWave wave(bench, {1, 3}, {7.0, 12.0});
+    const double up_to = place_of(bench, bench.between(0.4, 0.65), [](auto& r) { return r.share; });
+    closes_as(answers, seed, wave.text(up_to), bench,
+              [&](const DrawnRow& r) { return r.share < up_to ? wave.at(r) : 0.0; },
+              {{"amplitude_nm", wave.size},
+               {"order", wave.order},
+               {"below_load_nm", up_to * bench.most_output_nm / bench.ratio}});
   });
 }
 
 TEST(PartsOfRangesOnBenches, AWaveOfOneDirectionWithTheLoadIsNoPairOfNames) {
   expect_all(7300, 3, [](Answers& answers, std::uint64_t seed) {
     DrawnBench bench = turning(seed, true);
-    const int order = bench.whole(1, 2);
+    const DrawnWave wave(bench, {1, 2}, {9.0, 14.0});
     const bool forward = seed % 2 == 0;
-    const double size = bench.scatter_nm() * bench.between(9.0, 14.0),
-                 phase = bench.between(0.0, 6.28);
-    closes_as(answers, seed, "order " + std::to_string(order), bench,
-              [&](const DrawnRow& r) {
-                return r.forward == forward ? size * r.share * turned(r, order, phase) : 0.0;
-              },
-              {{"amplitude_nm", size}, {"order", order}});
+    closes_as(answers, seed, wave.text(), bench,
+              [&](const DrawnRow& r) { return r.forward == forward ? r.share * wave.at(r) : 0.0; },
+              {{"amplitude_nm", wave.size}, {"order", wave.order}});
   });
 }
 
 TEST(PartsOfRangesOnBenches, AWaveOfAWholeOrderHasItsName) {
   expect_all(7400, 3, [](Answers& answers, std::uint64_t seed) {
     DrawnBench bench = turning(seed, seed % 2 == 0);
-    const int order = bench.whole(3, 6);
-    const double size = bench.scatter_nm() * bench.between(3.0, 5.0),
-                 phase = bench.between(0.0, 6.28);
-    const auto closed = loop::close_drive_loop(bench.model(), bench.data([&](const DrawnRow& r) {
-      return size * turned(r, order, phase);
-    }));
-    answers.add(seed, "order " + std::to_string(order), closed,
-                is_told_once(closed, "amplitude_nm", size) &&
+    const DrawnWave wave(bench, {3, 6}, {3.0, 5.0});
+    const auto closed = loop::close_drive_loop(
+        bench.model(), bench.data([&](const DrawnRow& r) { return wave.at(r); }));
+    answers.add(seed, wave.text(), closed,
+                is_told_once(closed, "amplitude_nm", wave.size) &&
                     closed->result.effects.front().id == "angle_periodic_friction" &&
-                    is_about(closed->result.effects.front(), "order", order, 1e-9));
+                    is_about(closed->result.effects.front(), "order", wave.order, 1e-9));
   });
 }
 

@@ -40,17 +40,23 @@ std::vector<DriveShape> speed_shapes(const DriveContext& context) {
   return shapes;
 }
 
+std::vector<double> places_between(std::vector<double> shares, double about, std::ptrdiff_t most) {
+  std::sort(shares.begin(), shares.end());
+  const auto n = static_cast<std::ptrdiff_t>(shares.size()),
+             at = std::upper_bound(shares.begin(), shares.end(), about) - shares.begin();
+  std::vector<double> places;
+  for (auto k = std::max<std::ptrdiff_t>(1, at - most); k < std::min(n, at + most); ++k)
+    if (const auto row = static_cast<std::size_t>(k); shares[row] > shares[row - 1])
+      places.push_back(0.5 * (shares[row] + shares[row - 1]));
+  return places;
+}
+
 std::vector<DriveShape> fading_shapes(const DriveContext& context) {
   std::vector<DriveShape> shapes;
   for (const double exponent : {2.0, 1.0})
     for (const DriveShape& speed : speed_shapes(context))
       shapes.push_back({speed.front(), exponent});
   return shapes;
-}
-
-double faded(const BenchPoint& p, const DriveShape& shape) {
-  const double x = p.speed_rpm / shape[0];
-  return std::exp(shape[1] == 1.0 ? -x : -x * x);
 }
 
 std::pair<double, double> speed_limits(const DriveContext& context) {

@@ -39,8 +39,6 @@ inline constexpr double kMostFriction = 0.4;
 [[nodiscard]] std::string short_text(double value);
 /// Scales of the speed, and the exponent by which a loss fades with it: 2, or 1.
 [[nodiscard]] std::vector<DriveShape> fading_shapes(const DriveContext& context);
-/// exp(-(n/n0)^exponent).
-[[nodiscard]] double faded(const BenchPoint& p, const DriveShape& shape);
 /// What is said of one that fades by exp(-n/n0): a design has the other alone.
 inline constexpr const char* kFadesOtherwise =
     "a design's [losses] have exp(-(n/n0)^2) alone, and one of it";
@@ -78,6 +76,10 @@ enum WaveSide { kWaveAbove, kWaveBelow, kWaveTurnsOver };
 [[nodiscard]] double size_of_wave(const DriveContext& context, const BenchPoint& p, double how);
 /// Where a row is, 0 ... 1, for the place of a wave.
 [[nodiscard]] double share_for_wave(const DriveContext& context, const BenchPoint& p, double over);
+
+/// Places half-way between rows that differ, of at most so many rows to either side of a place.
+[[nodiscard]] std::vector<double> places_between(std::vector<double> shares, double about,
+                                                 std::ptrdiff_t most);
 
 /// What changes in the course of a run or over a part of a turn.
 enum What { kFlanks, kDrag, kOutputReads, kOutputGain };

@@ -18,7 +18,9 @@ DriveFamily mixed_friction() {
   f.preference = 3;
   f.shapes = fading_shapes;
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& shape,
-                  double* c) { c[0] = context.friction_slope(p) * faded(p, shape); };
+                  double* c) {
+    c[0] = context.friction_slope(p) * faded(p.speed_rpm, shape[0], shape[1]);
+  };
   f.shape_values = {{.continuous = true, .limits = speed_limits}, {}};
   f.plausible = can_be_friction;
   f.into_state = [](DriveState& state, const DriveShape& shape, double b) {

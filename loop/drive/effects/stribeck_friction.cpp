@@ -17,8 +17,9 @@ DriveFamily stribeck_friction() {
   f.only_positive = true;
   f.preference = 2;
   f.shapes = fading_shapes;
-  f.evaluate =
-      loss([](auto&, const BenchPoint& p, const DriveShape& shape) { return faded(p, shape); });
+  f.evaluate = loss([](auto&, const BenchPoint& p, const DriveShape& shape) {
+    return faded(p.speed_rpm, shape[0], shape[1]);
+  });
   f.shape_values = {{.continuous = true, .limits = speed_limits}, {}};
   f.calibrate = [](CalibratedLosses& c, const DriveShape& shape, double b) {
     return shape[1] == 2.0 && CalibratedLosses::add(c.losses.stribeck_torque_nm, b,

@@ -257,14 +257,9 @@ DriveFamily unnamed_two_steps() {
     std::vector<double> shares;
     for (const BenchPoint& p : context.table.points)
       shares.push_back(plateau_share(context, p, *about));
-    std::sort(shares.begin(), shares.end());
-    const auto near = [&](double about_place) {
-      std::vector<double> places{about_place};
-      const auto n = static_cast<std::ptrdiff_t>(shares.size()),
-                 at = std::upper_bound(shares.begin(), shares.end(), about_place) - shares.begin();
-      for (auto k = std::max<std::ptrdiff_t>(1, at - kRows); k < std::min(n, at + kRows); ++k)
-        if (const auto row = static_cast<std::size_t>(k); shares[row] > shares[row - 1])
-          places.push_back(0.5 * (shares[row] + shares[row - 1]));
+    const auto near = [&](double now) {
+      std::vector<double> places = places_between(shares, now, kRows);
+      places.insert(places.begin(), now);
       return places;
     };
     const std::vector<double> firsts = near((*about)[kPlateauFrom]),

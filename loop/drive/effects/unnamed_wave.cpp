@@ -168,18 +168,10 @@ std::vector<DriveShape> places_near(const DriveContext& context, const DriveShap
   std::vector<double> shares;
   for (const BenchPoint& p : context.table.points)
     shares.push_back(share_for_wave(context, p, about[kWaveOver]));
-  std::sort(shares.begin(), shares.end());
-  const auto n = static_cast<std::ptrdiff_t>(shares.size());
-  const auto at =
-      std::upper_bound(shares.begin(), shares.end(), about[kWavePlace]) - shares.begin();
   std::vector<DriveShape> shapes;
-  for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(1, at - kRows); k < std::min(n, at + kRows);
-       ++k) {
-    const double low = shares[static_cast<std::size_t>(k - 1)],
-                 high = shares[static_cast<std::size_t>(k)];
-    if (!(high > low)) continue;
+  for (const double place : places_between(std::move(shares), about[kWavePlace], kRows)) {
     shapes.push_back(about);
-    shapes.back()[kWavePlace] = 0.5 * (low + high);
+    shapes.back()[kWavePlace] = place;
   }
   return shapes;
 }

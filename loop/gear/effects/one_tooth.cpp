@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What one tooth or one gap has as a whole: a tooth bent from its root on, thicker towards its tip
-// or swollen between its ends; a gap whose two walls stand out, or aside.
+// or swollen between its ends, or that stands aside; a gap whose two walls stand out, or aside.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -218,6 +218,35 @@ std::vector<EffectShape> patches_about(const FlankGeometry& geometry, double too
         shapes.push_back({tooth, teeth, diameter_mm, profile * roll_range(geometry), height_mm,
                           face * geometry.face_width_mm()});
   return shapes;
+}
+
+EffectFamily unnamed_tooth_aside() {
+  EffectFamily f;
+  f.id = "unnamed_tooth_aside";
+  f.description = "one tooth stands aside";
+  f.parameters = {"amount_um"};
+  f.shape_names = {"tooth", "aside"};
+  f.named = false;
+  f.term_keys = {{"tooth"}, {"aside"}};
+  f.local = true;
+  f.preference = 3;
+  f.correctable = Correctable::kNoCause;
+  f.shapes = [](const FlankGeometry& g) {
+    constexpr double kCounterClockwise = 1.0;
+    std::vector<EffectShape> shapes = whole_numbers(1, g.teeth());
+    for (EffectShape& shape : shapes) shape.push_back(kCounterClockwise);
+    return shapes;
+  };
+  f.evaluate = [](const FlankGeometry&, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = p.surface == Surface::kFlank && p.tooth == static_cast<int>(shape[0]) ? shape[1] * p.side
+                                                                                 : 0.0;
+  };
+  f.words = [](const ToldForm& told) {
+    const int sign = told.sign() * (told.shape[1] < 0.0 ? -1 : 1);
+    return "tooth " + std::to_string(static_cast<int>(told.shape[0])) + " stands aside, " +
+           (sign == 0 ? "ahead on one flank and back on the other" : turned(sign));
+  };
+  return f;
 }
 
 }  // namespace trueflank::loop::gear_effects

@@ -12,6 +12,8 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_bent_tooth();
 /// All of a tooth, the simplest first; of a single flank those that are not opposite.
 [[nodiscard]] std::vector<EffectShape> shapes_of_bent_tooth(int tooth, bool both_flanks);
+/// A pitch error of one tooth: more material on one flank, as much less on the other.
+[[nodiscard]] EffectFamily unnamed_tooth_aside();
 /// The two walls of the gap after a tooth, counter-clockwise: out alike, or the gap aside.
 [[nodiscard]] EffectFamily unnamed_gap();
 /// A swelling or hollow of one side's flanks that dies away over the neighbouring teeth, the

@@ -50,7 +50,6 @@ namespace trueflank::loop::gear_effects {
 /// @{
 [[nodiscard]] EffectFamily unnamed();
 [[nodiscard]] EffectFamily unnamed_flank();
-[[nodiscard]] EffectFamily unnamed_tooth_aside();
 [[nodiscard]] EffectFamily unnamed_tooth_form();
 /// Forms along the flanks, each on some neighbouring teeth only.
 [[nodiscard]] std::vector<EffectFamily> forms_of_teeth();

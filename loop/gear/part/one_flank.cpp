@@ -60,27 +60,25 @@ bool tell_pair_of_one_flank(PartModel& model) {
 bool tell_form_of_one_flank_alone(PartModel& model) {
   constexpr double kClearly = 25.0;  // chi-square
   for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
-    const Effect own = model.effects[e];
+    const Effect& own = model.effects[e];
     const std::vector<std::string>& names = own.family->shape_names;
     if (own.family->named || own.flank != FlankChoice::kBoth || own.columns() != 1 ||
         names.empty() || names.back() != "opposite_flanks" || own.shape.size() != names.size())
       continue;
     double least = fit_of(model, model.effects)->residual_square() - kClearly;
-    Effect best = own;
+    std::vector<Effect> with;
     for (const FlankChoice flank : {FlankChoice::kLeft, FlankChoice::kRight}) {
-      Effect one{own.family, flank, own.shape};
-      one.shape.back() = 0.0;
-      model.effects[e] = one;
-      const double square = fit_of(model, model.effects)->residual_square();
+      std::vector<Effect> effects = model.effects;
+      effects[e].flank = flank;
+      effects[e].shape.back() = 0.0;
+      const double square = fit_of(model, effects)->residual_square();
       if (square >= least) continue;
       least = square;
-      best = std::move(one);
+      with = std::move(effects);
     }
-    model.effects[e] = own;
-    if (best == own) continue;
-    std::vector<Effect> with = model.effects;
-    with.erase(with.begin() + static_cast<std::ptrdiff_t>(e));
-    with.push_back(std::move(best));
+    if (with.empty()) continue;
+    std::rotate(with.begin() + static_cast<std::ptrdiff_t>(e),
+                with.begin() + static_cast<std::ptrdiff_t>(e) + 1, with.end());
     put_in_place_of(model, {e}, with);
     return true;
   }
