@@ -145,7 +145,7 @@ TEST(PartsOfRangesOnBenches, ARunMayBeginLongAfterARest) {
   expect_all(7800, 3, [](Answers& answers, std::uint64_t seed) {
     DrawnBench bench = any_rows(seed, true);
     const double within = bench.between(1.2, 3.0),
-                 size = bench.scatter_nm() * bench.between(12.0, 20.0);
+                 size = bench.scatter_nm() * bench.between(25.0, 40.0);
     int turns = 0;
     std::vector<bool> turned_before;
     for (const DrawnRow& r : bench.rows) {

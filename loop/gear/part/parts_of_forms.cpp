@@ -352,7 +352,7 @@ void tell_level_of_forms(PartModel& model) {
 /// A groove or ridge whose middle lies at an end is what the flanks do towards that end.
 void tell_bands_at_an_end(PartModel& model) {
   constexpr double kNothing = 9.0;  // chi-square
-  constexpr double kNear = 0.5;     // of its half width
+  constexpr double kNear = 1.0;     // of its half width
   for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
     const Effect& band = model.effects[e];
     if (band.family != find_family("unnamed_band")) continue;
