@@ -47,6 +47,7 @@ STAGES = {
     "unpacking": r"libdeflate_(zlib|deflate)_decompress_ex",
     "exact bodies": r"trueflank::brep_of\(",
     "STEP": r"trueflank::io::.*write_step|trueflank::io::step_",
+    "effects of a drive": r"trueflank::loop::DriveSelection::run\(",
     "reading measured files": r"trueflank::loop::read_measured_files\(",
     "points to observations": r"trueflank::loop::make_observations\(|" + BESIDE +
                               r"trueflank::loop::\(anonymous namespace\)::(TableBuilder|PoseSearch)",
@@ -93,6 +94,20 @@ crowning_um = 8.0
 tip_relief_um = 10.0
 tip_relief_start_diameter_mm = 26.6
 """
+DRIVE = """format = 1
+name = "pair"
+[gearbox]
+kind = "pair"
+module_mm = 2.0
+friction = 0.06
+[pinion]
+teeth = 19
+shift = 0.2
+face_width_mm = 16.0
+[wheel]
+teeth = 57
+face_width_mm = 16.0
+"""
 SEARCH = """format = 1
 [gearbox]
 kind = "3k"
@@ -138,6 +153,18 @@ def scan(path, count):
                                    x * math.sin(turn) + y * math.cos(turn), height))
 
 
+def bench_log(path, count):
+    """A log of a drive with a ratio of 3: noise, and a loss below 700 rpm that the design lacks."""
+    numbers = random.Random(2)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("direction,input_speed_rpm,input_torque_nm,output_torque_nm\n")
+        for _ in range(count):
+            speed, torque = numbers.uniform(50.0, 2500.0), numbers.uniform(3.0, 18.0)
+            lost = 0.3 if speed < 700.0 else 0.0
+            file.write(f"forward,{speed:.2f},{torque:.5f},"
+                       f"{2.97 * (torque - lost) + numbers.gauss(0.0, 0.2):.5f}\n")
+
+
 def jobs(program, folder):
     """Commands by name, each with the folder or file it writes."""
     def make(example, formats, name):
@@ -146,7 +173,9 @@ def jobs(program, folder):
     (folder / "gear.toml").write_text(PAIR)
     (folder / "crowned.toml").write_text(CROWNED)
     (folder / "search.toml").write_text(SEARCH)
+    (folder / "pair.toml").write_text(DRIVE)
     scan(folder / "scan.ply", 20000)
+    bench_log(folder / "log.csv", 4000)
     ring = folder / "helical/ring"
     return {
         "search 3k": ([program, "search", folder / "search.toml", "-o", folder / "search", "-q", "--threads", "1"], None),
@@ -160,6 +189,7 @@ def jobs(program, folder):
         "compare": ([program, "compare", f"{ring}.stl", f"{ring}.3mf"], None),
         "loop 20 000": ([program, "loop", folder / "gear.toml", folder / "scan.ply", "-o", folder / "loop"],
                         folder / "loop"),
+        "bench log 4000": ([program, "loop", folder / "pair.toml", folder / "log.csv", "-o", folder / "log"], folder / "log"),
     }
 
 

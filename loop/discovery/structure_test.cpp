@@ -78,7 +78,7 @@ std::vector<FlipSigns> new_flip_signs(std::size_t units, std::size_t flips) {
 
 /// The same. Every step of a choice asks for them: those of few units stay at hand.
 std::shared_ptr<const std::vector<FlipSigns>> flip_signs(std::size_t units, std::size_t flips) {
-  constexpr std::size_t kMostBytes = 4'000'000;
+  constexpr std::size_t kMostBytes = 12'000'000;
   struct Kept {
     std::size_t units = 0, flips = 0;
     std::shared_ptr<const std::vector<FlipSigns>> signs;

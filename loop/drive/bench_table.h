@@ -43,6 +43,8 @@ struct BenchPoint {
   double moved = 0.0, speed_moved = 0.0;
   int row = 0;                 ///< of its file, from 0 on, with the rows that were left out
   int since_turn = 0;          ///< rows since the direction changed or the file began
+  /// DriveContext::speed_coordinate() of a speed, once computed: every shape that is tried asks it.
+  double known_speed_rpm = kNaN, known_speed_coordinate = kNaN;
   [[nodiscard]] DrivePoint at() const { return {forward, speed_rpm, load_nm, temperature_c}; }
 };
 

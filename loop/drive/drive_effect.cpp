@@ -38,6 +38,7 @@ double DriveContext::load_coordinate(const BenchPoint& p) const {
 }
 
 double DriveContext::speed_coordinate(const BenchPoint& p) const {
+  if (p.known_speed_rpm == p.speed_rpm) return p.known_speed_coordinate;
   const double most = table.most_speed_rpm, least = table.least_speed_rpm;
   if (!(most > least)) return 0.0;
   if (least > 0.1 * most) return 2.0 * (p.speed_rpm - least) / (most - least) - 1.0;

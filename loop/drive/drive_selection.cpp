@@ -41,10 +41,17 @@ DriveSelection::DriveSelection(const DriveModel& model, BenchTable table,
       options_(options),
       table_(std::move(table)),
       curve_(model),
-      mesh_curves_(mesh_curves(model)) {}
+      mesh_curves_(mesh_curves(model)) {
+  const DriveContext here = context();
+  for (BenchPoint& p : table_.points) {
+    p.known_speed_coordinate = here.speed_coordinate(p);
+    p.known_speed_rpm = p.speed_rpm;
+  }
+}
 
 DriveOutcome DriveSelection::run() {
   measure_residual();
+  if (is_a_log()) return of_a_log();
   candidates_ = drive_candidates(context());
   DriveOutcome outcome = choose();
   if (gains_power() && table_.has(true) && table_.has(false))
@@ -214,9 +221,13 @@ DriveOutcome DriveSelection::outcome_of(const DiscoveryResult& chosen) const {
   outcome.fold_errors = fit.fold_errors();
   outcome.square = fit.residual_square();
   outcome.shared = shared_inside_units(fit);
-  outcome.rows = static_cast<double>(std::count_if(
-      table_.points.begin(), table_.points.end(), [](const BenchPoint& p) { return p.fold != 0; }));
+  outcome.rows = rows_of_training();
   return outcome;
+}
+
+double DriveSelection::rows_of_training() const {
+  return static_cast<double>(std::count_if(table_.points.begin(), table_.points.end(),
+                                           [](const BenchPoint& p) { return p.fold != 0; }));
 }
 
 double DriveSelection::shared_inside_units(const DriveFit& fit) const {

@@ -91,6 +91,13 @@ class DriveSelection {
   }
   /// The effects that are left at the end, of all that may be there.
   DriveOutcome choose();
+  /// True of so many rows that effects are sought on some of them.
+  [[nodiscard]] bool is_a_log() const;
+  /// The same of a log: sought on some rows, and settled on all.
+  DriveOutcome of_a_log();
+  /// Effects with a name that only so many rows show, where nothing is left beside them.
+  void add_names_that_many_rows_show(DriveOutcome& outcome);
+  [[nodiscard]] double rows_of_training() const;
   /// Data that gain power show a sensor that misreads, and a loss beside it is as unsure as that is. It is
   /// fitted where both directions were run, the sensors alone leave more than it does, and nothing is left
   /// beside it.
@@ -247,6 +254,8 @@ class DriveSelection {
   void stand_by_the_whole(const DriveOutcome& whole, DriveOutcome& outcome);
   void leave_out(DriveOutcome& outcome, std::size_t effect);
   void remember(const DriveOutcome& kept, const DriveOutcome& other);
+
+  static constexpr std::size_t kMostSoughtRows = 1000, kMostSettledRows = 12000;
 
   const DriveModel& model_;
   const DriveLoopOptions& options_;

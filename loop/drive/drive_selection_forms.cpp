@@ -121,22 +121,21 @@ std::vector<DriveEffect> DriveSelection::likeliest_forms(const std::vector<Drive
     const bool jumps = over == 2.0 && family.jumps_in_run;
     if (!family.all_shapes || (!family.over && !jumps) || !may_be_there(family)) continue;
     std::map<int, std::pair<double, DriveShape>> likeliest;  // of every kind
-    for (const DriveShape& shape : family.all_shapes(here, nullptr)) {
-      if (!jumps && family.over(shape) != over) continue;
-      if (family.shows && !family.shows(here, shape)) continue;
-      const double gain = beside.with({&family, shape}).gain;
-      if (!(gain > 0.0)) continue;
-      auto& [most, best] = likeliest[family.kind ? family.kind(shape) : 0];
-      if (gain <= most) continue;
-      most = gain;
-      best = shape;
+    std::vector<DriveShape> shapes = family.all_shapes(here, nullptr);
+    std::erase_if(shapes, [&](const DriveShape& shape) {
+      return (!jumps && family.over(shape) != over) || (family.shows && !family.shows(here, shape));
+    });
+    const std::vector<BesideEffects::Alone> each = beside.with_each(family, shapes);
+    for (std::size_t k = 0; k < shapes.size(); ++k) {
+      if (!(each[k].gain > 0.0)) continue;
+      auto& [most, best] = likeliest[family.kind ? family.kind(shapes[k]) : 0];
+      if (each[k].gain <= most) continue;
+      most = each[k].gain;
+      best = shapes[k];
     }
-    // (two times: the second is as fine as the first one's place is near)
-    for (int round = 0; round < 2 && family.falls_in_steps; ++round)
+    if (family.falls_in_steps)
       for (auto& [kind, best] : likeliest)
-        for (DriveShape& shape : family.all_shapes(here, &best.second))
-          if (const double gain = beside.with({&family, shape}).gain; gain > best.first)
-            best = {gain, shape};
+        best.second = nearest_best(here, beside, {&family, best.second}).shape;
     for (const auto& [kind, best] : likeliest)
       for (DriveShape& shape : family.kin_shapes ? family.kin_shapes(best.second)
                                                  : std::vector<DriveShape>{best.second})

@@ -30,19 +30,6 @@ bool is_plain_beside_forms(const DriveEffect& effect, bool gains) {
   return f.is_loss && f.preference == 0 && (f.follows == "nothing" || f.follows == "load");
 }
 
-/// Of what falls in steps over its places the best near by.
-DriveEffect nearest_best(const DriveContext& context, const BesideEffects& beside,
-                         DriveEffect form) {
-  double most = beside.with(form).gain;
-  for (int round = 0; round < 2; ++round)
-    for (DriveShape& shape : form.family->all_shapes(context, &form.shape))
-      if (const double gain = beside.with({form.family, shape}).gain; gain > most) {
-        most = gain;
-        form.shape = std::move(shape);
-      }
-  return form;
-}
-
 /// True where most of the rows that the form moves most are moved so: not few of them far off.
 bool most_rows_follow(const DriveContext& context, const Eigen::VectorXd& value,
                       const std::vector<DriveEffect>& effects, std::size_t form) {
@@ -125,8 +112,8 @@ double cost_of_changes(double rows, double changes) {
 }  // namespace
 
 void DriveSelection::tell_as_whole_forms(DriveOutcome& outcome) {
-  constexpr std::size_t kFewestRows = 30, kMostRows = 2500;
-  if (table_.points.size() < kFewestRows || table_.points.size() > kMostRows) return;
+  constexpr std::size_t kFewestRows = 30;
+  if (table_.points.size() < kFewestRows) return;
   // Where readings in steps share their rounding this looks like a form, and where both directions
   // gain power the sensors are asked with more care.
   const bool in_steps = std::any_of(table_.points.begin(), table_.points.end(),
@@ -461,10 +448,7 @@ void DriveSelection::fill_whole_columns() {
       whole_.effects.push_back({&family, std::move(shape)});
   }
   const BesideEffects beside(here, value_, {}, FitRows::kTraining);
-  whole_.columns.resize(value_.size(), static_cast<Eigen::Index>(whole_.effects.size()));
-  for (std::size_t k = 0; k < whole_.effects.size(); ++k)
-    whole_.columns.col(static_cast<Eigen::Index>(k)) =
-        beside.column_of(whole_.effects[k]).cast<float>();
+  whole_.columns = beside.columns_of(whole_.effects);
 }
 
 std::vector<DriveSelection::WholeForm> DriveSelection::whole_forms(

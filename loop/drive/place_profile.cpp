@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/geometry/linear_equations.h"
 
 namespace trueflank::loop {
@@ -14,6 +15,7 @@ namespace {
 constexpr double kOfTwo = 1.56;
 /// A column of which less than this share stands beside the others does what they do.
 constexpr double kOwnShare = 1e-4;
+constexpr std::size_t kAtOnce = 32;  // shapes for a processor
 
 }  // namespace
 
@@ -37,13 +39,14 @@ BesideEffects::BesideEffects(const DriveContext& context, const Eigen::VectorXd&
   left_ -= others_ * (others_.transpose() * left_);
 }
 
-Eigen::VectorXd BesideEffects::column_of(const DriveEffect& effect) const {
-  const auto& points = context_.table.points;
+Eigen::VectorXd BesideEffects::column_of(const DriveContext& context,
+                                         const DriveEffect& effect) const {
+  const auto& points = context.table.points;
   Eigen::VectorXd column(weight_.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     double one = 0.0;
-    if (weight_[row] > 0.0) effect.family->evaluate(context_, points[i], effect.shape, &one);
+    if (weight_[row] > 0.0) effect.family->evaluate(context, points[i], effect.shape, &one);
     column[row] = weight_[row] * one;
   }
   return column;
@@ -67,14 +70,49 @@ double BesideEffects::own_share(const DriveEffect& effect) const {
   return whole > 0.0 ? column.squaredNorm() / whole : 0.0;
 }
 
-BesideEffects::Alone BesideEffects::with(const DriveEffect& effect) const {
-  Eigen::VectorXd column = column_of(effect);
+BesideEffects::Alone BesideEffects::with_column(Eigen::VectorXd column) const {
   const double whole = column.squaredNorm();
   column -= others_ * (others_.transpose() * column);
   const double own = column.squaredNorm();
   if (!(own > kOwnShare * whole)) return {};
   const double product = column.dot(left_);
   return {.gain = product * product / own, .coefficient = product / own, .error_square = 1.0 / own};
+}
+
+std::vector<BesideEffects::Alone> BesideEffects::with_each(
+    const DriveFamily& family, const std::vector<DriveShape>& shapes) const {
+  std::vector<Alone> each(shapes.size());
+  for_each_run(shapes.size(), kAtOnce, [&](std::size_t from, std::size_t to) {
+    const DriveContext own = context_;  // it keeps what was asked last
+    for (std::size_t k = from; k < to; ++k)
+      each[k] = with_column(column_of(own, {&family, shapes[k]}));
+  });
+  return each;
+}
+
+Eigen::MatrixXf BesideEffects::columns_of(const std::vector<DriveEffect>& effects) const {
+  Eigen::MatrixXf columns(left_.size(), static_cast<Eigen::Index>(effects.size()));
+  for_each_run(effects.size(), kAtOnce, [&](std::size_t from, std::size_t to) {
+    const DriveContext own = context_;
+    for (std::size_t k = from; k < to; ++k)
+      columns.col(static_cast<Eigen::Index>(k)) = column_of(own, effects[k]).cast<float>();
+  });
+  return columns;
+}
+
+DriveEffect nearest_best(const DriveContext& context, const BesideEffects& beside,
+                         DriveEffect form) {
+  double most = beside.with(form).gain;
+  for (int round = 0; round < 2; ++round) {
+    const std::vector<DriveShape> shapes = form.family->all_shapes(context, &form.shape);
+    const std::vector<BesideEffects::Alone> each = beside.with_each(*form.family, shapes);
+    for (std::size_t k = 0; k < shapes.size(); ++k)
+      if (each[k].gain > most) {
+        most = each[k].gain;
+        form.shape = shapes[k];
+      }
+  }
+  return form;
 }
 
 PlaceProfile profile_of_place(const DriveContext& context, const Eigen::VectorXd& value,
@@ -91,10 +129,8 @@ PlaceProfile profile_of_place(const DriveContext& context, const Eigen::VectorXd
   std::vector<Tried> tried{{effects[effect].shape, beside.with(effects[effect])}};
   std::vector<DriveShape> shapes;
   if (family.all_shapes) shapes = family.all_shapes(context, &effects[effect].shape);
-  for (DriveShape& shape : shapes) {
-    const BesideEffects::Alone alone = beside.with({&family, shape});
-    tried.push_back({std::move(shape), alone});
-  }
+  const std::vector<BesideEffects::Alone> each = beside.with_each(family, shapes);
+  for (std::size_t k = 0; k < shapes.size(); ++k) tried.push_back({std::move(shapes[k]), each[k]});
   if (family.shows && family.shows(context, tried.front().shape))
     std::erase_if(tried, [&](const Tried& t) { return !family.shows(context, t.shape); });
   // The same place in the same words: an amount of the other sign is another form.

@@ -34,11 +34,20 @@ class BesideEffects {
     double error_square = 0.0;  ///< of the coefficient, for a noise of 1
   };
   /// Of an effect of one column.
-  [[nodiscard]] Alone with(const DriveEffect& effect) const;
+  [[nodiscard]] Alone with(const DriveEffect& effect) const {
+    return with_column(column_of(effect));
+  }
+  /// The same of many shapes of a family, on all processors.
+  [[nodiscard]] std::vector<Alone> with_each(const DriveFamily& family,
+                                             const std::vector<DriveShape>& shapes) const;
+  /// The columns of effects, one each, in single precision; on all processors.
+  [[nodiscard]] Eigen::MatrixXf columns_of(const std::vector<DriveEffect>& effects) const;
   /// The same of many columns of one each, as column_of() gives them: what each takes off.
   [[nodiscard]] Eigen::VectorXf gains(const Eigen::MatrixXf& columns) const;
   /// An effect's column in the noise's units, 0 for rows not seen.
-  [[nodiscard]] Eigen::VectorXd column_of(const DriveEffect& effect) const;
+  [[nodiscard]] Eigen::VectorXd column_of(const DriveEffect& effect) const {
+    return column_of(context_, effect);
+  }
   /// Share of the squares of its column that the others do not hold.
   [[nodiscard]] double own_share(const DriveEffect& effect) const;
   /// What the others alone leave.
@@ -47,10 +56,19 @@ class BesideEffects {
   [[nodiscard]] int columns() const { return static_cast<int>(others_.cols()); }
 
  private:
+  /// `context`: this one's, or a copy for one thread.
+  [[nodiscard]] Eigen::VectorXd column_of(const DriveContext& context,
+                                          const DriveEffect& effect) const;
+  [[nodiscard]] Alone with_column(Eigen::VectorXd column) const;
+
   const DriveContext& context_;
   Eigen::VectorXd weight_;  ///< 0 for rows not seen
   Eigen::MatrixXd others_;  ///< orthonormal
   Eigen::VectorXd left_;
 };
+
+/// Of what falls in steps over its places the best near by.
+[[nodiscard]] DriveEffect nearest_best(const DriveContext& context, const BesideEffects& beside,
+                                       DriveEffect form);
 
 }  // namespace trueflank::loop

@@ -217,10 +217,10 @@ class DrawnBench {
 };
 
 /// Rows at random loads and speeds, which seldom come again; one direction, or one after the other
-/// at random.
-inline DrawnBench any_rows(std::uint64_t seed, bool both) {
+/// at random. `rows_asked`: 0 for 90 to 200 of them.
+inline DrawnBench any_rows(std::uint64_t seed, bool both, int rows_asked = 0) {
   DrawnBench bench(seed, RowOrder::kRuns);
-  const int n = bench.whole(90, 200);
+  const int n = rows_asked > 0 ? rows_asked : bench.whole(90, 200);
   std::vector<DrawnRow> rows;
   double turns = 0.0;
   for (int i = 0; i < n; ++i) {
