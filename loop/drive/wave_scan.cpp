@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "trueflank/base/units.h"
 #include "trueflank/loop/drive/effects/columns.h"
+#include "trueflank/loop/drive/wave_spectrum.h"
 
 namespace trueflank::loop {
 namespace {
@@ -20,6 +23,8 @@ constexpr double kStepOfTurns = 0.35;        ///< of the order: an input's turn 
 constexpr double kMostPartTerms = 6e6;       ///< rows times orders
 constexpr int kBinsOfParts = 10;             ///< of as many rows each
 constexpr Eigen::Index kOrdersAtOnce = 512;  ///< orders at once
+constexpr int kMostOrdersOfPeaks = 2000000;  ///< of which the peaks are sought
+constexpr Eigen::Index kOrdersAbout = 6;     ///< to either side of a likely order
 
 /// A row in the noise's units: what is left of it, and how much a wave of 1 N m moves it.
 struct PartRow {
@@ -114,10 +119,15 @@ class PartScan {
 
   std::vector<PartWave> likeliest() {
     constexpr std::size_t kFewestRows = 30;
-    if (rows_.size() < kFewestRows || !(sum_ > 0.0) ||
-        static_cast<double>(lines_) * static_cast<double>(rows_.size()) > kMostPartTerms)
-      return {};
-    for (first_line_ = 0; first_line_ < lines_; first_line_ += kOrdersAtOnce) ask_block();
+    if (rows_.size() < kFewestRows || !(sum_ > 0.0)) return {};
+    if (static_cast<double>(lines_) * static_cast<double>(rows_.size()) <= kMostPartTerms)
+      for (first_line_ = 0; first_line_ < lines_; first_line_ += kOrdersAtOnce)
+        ask_block(std::min(kOrdersAtOnce, lines_ - first_line_));
+    else
+      for (const auto& [line, count] : likely_lines()) {
+        first_line_ = line;
+        ask_block(count);
+      }
     std::stable_sort(
         best_.begin(), best_.end(),
         [](const PartCandidate& a, const PartCandidate& b) { return a.gain > b.gain; });
@@ -169,9 +179,51 @@ class PartScan {
     parted_.push_back(std::move(parted));
   }
 
+  /// Over very many turns: runs of orders, from where on and how many, about those of the drive's
+  /// members and the strongest of each direction. A wave of a part stands out near its own order in
+  /// the spectrum of all.
+  [[nodiscard]] std::map<Eigen::Index, Eigen::Index> likely_lines() const {
+    std::set<Eigen::Index> likely;
+    for (const MemberOrder& member : context_.model.orders)
+      for (double order = member.order; order > 0.0 && order <= kHighestOfParts;
+           order += member.order)
+        likely.insert(static_cast<Eigen::Index>((order - first_) / step_ + 0.5));
+    for (const bool forward : {true, false}) add_peaks(forward, likely);
+    std::map<Eigen::Index, Eigen::Index> runs;
+    Eigen::Index end = 0;
+    for (const Eigen::Index line : likely) {
+      const Eigen::Index begin = std::max(end, line - kOrdersAbout);
+      end = std::min(lines_, line + kOrdersAbout + 1);
+      for (Eigen::Index at = begin; at < end; at += kOrdersAtOnce)
+        runs.emplace(at, std::min(kOrdersAtOnce, end - at));
+    }
+    return runs;
+  }
+
+  void add_peaks(bool forward, std::set<Eigen::Index>& likely) const {
+    constexpr int kMostPeaks = 5;
+    if (lines_ > kMostOrdersOfPeaks) return;
+    std::vector<double> angle, size;
+    for (const PartRow& row : rows_)
+      if (row.forward == forward) {
+        angle.push_back(row.angle_rad);
+        size.push_back(row.lever * row.left);
+      }
+    if (angle.empty()) return;
+    std::vector<double> power;
+    for (const auto& sum : line_sums(angle, size, first_, step_, static_cast<int>(lines_)))
+      power.push_back(std::norm(sum));
+    for (int peak = 0; peak < kMostPeaks; ++peak) {
+      const auto most = std::max_element(power.begin(), power.end());
+      const auto line = most - power.begin();
+      likely.insert(line);
+      std::fill(power.begin() + std::max<std::ptrdiff_t>(0, line - kOrdersAbout),
+                power.begin() + std::min<std::ptrdiff_t>(lines_, line + kOrdersAbout + 1), 0.0);
+    }
+  }
+
   /// Of orders from one on: sums of every bin, direction and size.
-  void ask_block() {
-    const Eigen::Index lines = std::min(kOrdersAtOnce, lines_ - first_line_);
+  void ask_block(Eigen::Index lines) {
     for (const double how : {double(kWaveEven), double(kWaveWithLoad), double(kWaveWithSpeed)}) {
       for (const Parted& parted : parted_) {
         if (how == double(kWaveWithSpeed) && &parted != &parted_.front()) continue;
@@ -185,7 +237,7 @@ class PartScan {
     const std::size_t bins = parted.place.size() + 1;
     sums_.resize(2 * bins);
     for (PartSum& sum : sums_) sum.clear(lines);
-    if (phases_of_ != first_line_) fill_phases(lines);
+    if (phases_of_ != first_line_ || cosine_.rows() != lines) fill_phases(lines);
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const PartRow& row = rows_[i];
       const double weight = row.size(how) * row.lever;
