@@ -31,6 +31,45 @@ double share_in_range(const DriveContext& context, const BenchPoint& p, double o
   return (context.share_of_range(p, over) - least) / std::max(1e-9, 1.0 - least);
 }
 
+std::vector<double> ranges_with_edges(const DriveContext& context) {
+  std::vector<double> overs;
+  for (const double over : {0.0, 1.0, 2.0, kOverDrivingLoad})
+    if (has_parts_over(context, over) && (over != 0.0 || context.table.has(false)) &&
+        (over != kOverDrivingLoad || context.table.has(true)))
+      overs.push_back(over);
+  return overs;
+}
+
+std::vector<double> shares_of_rows(const DriveContext& context, double over) {
+  std::vector<double> shares;
+  for (const BenchPoint& p : context.table.points)
+    shares.push_back(share_in_range(context, p, over));
+  return shares;
+}
+
+std::vector<double> edges_to_try(std::vector<double> shares, std::size_t most) {
+  std::vector<double> places;
+  std::sort(shares.begin(), shares.end());
+  std::size_t last = 0;
+  for (std::size_t at = 1; at < shares.size(); ++at) {
+    if (!(shares[at] > shares[at - 1]) || (at - last) * most < shares.size()) continue;
+    places.push_back(0.5 * (shares[at] + shares[at - 1]));
+    last = at;
+  }
+  return places;
+}
+
+std::vector<double> ends_of_gap(const std::vector<double>& shares, double place) {
+  constexpr double kNearlyAtTheRow = 0.98;  // of the way there
+  double below = -1e300, above = 1e300;
+  for (const double share : shares)
+    share <= place ? below = std::max(below, share) : above = std::min(above, share);
+  std::vector<double> ends;
+  if (below > -1e300) ends.push_back(place + kNearlyAtTheRow * (below - place));
+  if (above < 1e300) ends.push_back(place + kNearlyAtTheRow * (above - place));
+  return ends;
+}
+
 Parameter figure_at_share(const DriveContext& context, double over, const std::string& key,
                           double share) {
   const BenchTable& t = context.table;
@@ -49,9 +88,14 @@ Parameter figure_at_share(const DriveContext& context, double over, const std::s
 }
 
 std::string place_in_range(double over, const Parameter& place) {
-  if (over == kOverRun) return "line " + with_interval(place, "");
-  return std::string("a ") + name_of_range(over) + " of " +
-         with_interval(place, over == 0.0                ? " N m at the output"
+  return over == kOverRun
+             ? "line " + value_in_range(over, place)
+             : std::string("a ") + name_of_range(over) + " of " + value_in_range(over, place);
+}
+
+std::string value_in_range(double over, const Parameter& place) {
+  return with_interval(place, over == kOverRun           ? ""
+                              : over == 0.0              ? " N m at the output"
                               : over == kOverDrivingLoad ? unit_of_quantity(0.0)
                                                          : unit_of_quantity(over));
 }

@@ -15,11 +15,23 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] bool has_parts_over(const DriveContext& context, double over);
 /// 0 ... 1 from the least to the largest that was run.
 [[nodiscard]] double share_in_range(const DriveContext& context, const BenchPoint& p, double over);
+/// The load, the speed and the temperature where a part of them can be told. Of loads what drives:
+/// what is driven has the effect itself in it.
+[[nodiscard]] std::vector<double> ranges_with_edges(const DriveContext& context);
+/// share_in_range() of every row.
+[[nodiscard]] std::vector<double> shares_of_rows(const DriveContext& context, double over);
+/// Places between rows, with about as many rows between two of them.
+[[nodiscard]] std::vector<double> edges_to_try(std::vector<double> shares, std::size_t most);
+/// Nearly at both ends of the gap between rows in which a place lies: an edge may be anywhere in
+/// it.
+[[nodiscard]] std::vector<double> ends_of_gap(const std::vector<double>& shares, double place);
 /// The place of a share: a figure whose name ends with `output_nm`, `input_nm`, `rpm`, `c`, `line`.
 [[nodiscard]] Parameter figure_at_share(const DriveContext& context, double over,
                                         const std::string& key, double share);
 /// "a speed of 400 (395 to 404) rpm", "line 20".
 [[nodiscard]] std::string place_in_range(double over, const Parameter& place);
+/// "400 (395 to 404) rpm".
+[[nodiscard]] std::string value_in_range(double over, const Parameter& place);
 /// "speed", "load", "run".
 [[nodiscard]] const char* name_of_range(double over);
 
