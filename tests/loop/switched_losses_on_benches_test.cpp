@@ -96,12 +96,12 @@ TEST(SwitchedLossesOnBenches, FrictionBySpeedOverLoadIsOneForm) {
   expect_all(8500, 4, [](Answers& answers, std::uint64_t seed) {
     DrawnBench bench = any_rows(seed, seed % 2 == 0);
     const double knee = bench.between(550.0, 1100.0),
-                 size = bench.scatter_nm() * bench.between(10.0, 20.0);
+                 size = bench.scatter_nm() * bench.between(16.0, 26.0);
     closes_as(answers, seed, std::to_string(knee) + " rpm", bench,
               [&](const DrawnRow& r) {
                 return size * r.share / (1.0 + std::pow(r.rpm / (knee * r.share), 2));
               },
-              {{"amplitude_nm", size}, {"knee_rpm_at_largest_load", knee}});
+              {{"amplitude_nm", size}, {"half_at_rpm_at_largest_load", knee}});
   });
 }
 

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "trueflank/base/number_text.h"
 #include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/effects/registry.h"
 
@@ -31,9 +30,12 @@ double touch_of(const DriveContext& context, const BenchPoint& p, const DriveSha
                                                  : std::exp(-x);
 }
 
-/// What is left at the knee.
-double left_at_knee(const DriveShape& s) {
-  return s[kHerseyLaw] == double(kRational) ? 0.5 : std::exp(-1.0);
+/// The speed over the load, of the largest load 1, at which half of it is left.
+double half_of(const DriveShape& s) {
+  const double of_knee = s[kHerseyLaw] == double(kRational)      ? 1.0
+                         : s[kHerseyLaw] == double(kHerseyGauss) ? std::sqrt(std::log(2.0))
+                                                                 : std::log(2.0);
+  return s[kHerseyKnee] * of_knee;
 }
 
 std::pair<double, double> knee_limits(const DriveContext& context) {
@@ -87,9 +89,17 @@ DriveFamily unnamed_hersey() {
   f.all_shapes = [](const DriveContext& context, const DriveShape* about) {
     if (about == nullptr) return std::vector<DriveShape>{};
     const auto [least, most] = knee_limits(context);
-    return with_first_moved(
-        context, *about,
-        {.first = 0.005, .last = 0.5, .least = least, .most = most, .as_shares = true});
+    std::vector<DriveShape> shapes;
+    // (laws that explain as much have halves that differ: the interval holds them all)
+    for (const int law : {kRational, kHerseyGauss, kHerseyExponential}) {
+      DriveShape other{1.0, double(law)};
+      other[kHerseyKnee] = half_of(*about) / half_of(other);
+      for (DriveShape& shape : with_first_moved(
+               context, other,
+               {.first = 0.005, .last = 0.5, .least = least, .most = most, .as_shares = true}))
+        shapes.push_back(std::move(shape));
+    }
+    return shapes;
   };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
                   double* c) {
@@ -99,9 +109,8 @@ DriveFamily unnamed_hersey() {
     const double least = context.table.least_load_nm / context.table.most_load_nm;
     return std::vector<Parameter>{
         figure_of("amplitude_nm", std::abs(amount)),
-        figure_of("knee_rpm_at_largest_load", s[kHerseyKnee]),
-        figure_of("knee_rpm_at_least_load", s[kHerseyKnee] * std::max(0.0, least)),
-        figure_of("left_at_knee_percent", 100.0 * left_at_knee(s))};
+        figure_of("half_at_rpm_at_largest_load", half_of(s)),
+        figure_of("half_at_rpm_at_least_load", half_of(s) * std::max(0.0, least))};
   };
   f.told = [](const DriveContext&, const DriveShape& s, double amount,
               const std::vector<Parameter>& figures) {
@@ -112,10 +121,10 @@ DriveFamily unnamed_hersey() {
            " at low speed, up to higher speeds the higher the load: a loss in proportion to the "
            "load, " +
            with_interval(figures[0], " N m") + (amount > 0.0 ? " more" : " less") +
-           " at the largest load and no speed, that falls with the speed over the load, by " + law +
-           ", to " + printed("%.0f %%", figures[3].value) + " of it at a speed of " +
-           with_interval(figures[1], " rpm") + " at the largest load and of " +
-           with_interval(figures[2], " rpm") + " at the least (a film of oil: Hersey's number?)";
+           " at the largest load and no speed, that falls with the speed over the load, about by " +
+           law + ": half of it is left at a speed of " + with_interval(figures[1], " rpm") +
+           " at the largest load and of " + with_interval(figures[2], " rpm") +
+           " at the least (a film of oil: Hersey's number?)";
   };
   f.words = [](const DriveModel&, const DriveShape&, const DriveContext*) {
     return std::string("by the friction of the flanks, that follows the speed over the load");
