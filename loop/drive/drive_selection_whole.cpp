@@ -308,12 +308,8 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
     // (a name that only mends a piece goes with it where far fewer figures do as much)
     const bool fewer = best.size <= now.size && best.effects.size() < outcome.effects.size();
     const bool mends = drops_a_piece && (best.size + kFarFewer <= now.size || fewer);
-    // (three names or more that one form of far fewer figures does without are its pieces)
-    const bool as_pieces = best.size + kFarFewer <= now.size &&
-                           best.effects.size() + kFarFewer <= outcome.effects.size();
     const double as_one = fewer && (cancel || drops_a_piece) ? 0.0 : kAsOne;
-    if (gain < (drops_any && !drops_a_name ? as_one : mends || as_pieces ? kForBoth : kClearly))
-      continue;
+    if (gain < (drops_any && !drops_a_name ? as_one : mends ? kForBoth : kClearly)) continue;
     bool follow = true;
     for (std::size_t e = 0; e < best.effects.size() && follow; ++e)
       follow = !(e == form || (best.from[e] < 0 && !best.effects[e].family->named)) ||
