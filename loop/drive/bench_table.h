@@ -42,6 +42,8 @@ struct BenchPoint {
   /// How far the load and the speed have moved since they turned, of the largest.
   double moved = 0.0, speed_moved = 0.0;
   int row = 0;                 ///< of its file, from 0 on, with the rows that were left out
+  /// Of the points the one that was taken right before; -1: none was, or it was left out.
+  int before = -1;
   int since_turn = 0;          ///< rows since the direction changed or the file began
   /// DriveContext::speed_coordinate() of a speed, once computed: every shape that is tried asks it.
   double known_speed_rpm = kNaN, known_speed_coordinate = kNaN;

@@ -42,6 +42,7 @@ struct DriveContext {
   DriveState state;
   mutable LastEfficiency last_forward{true}, last_backward{false};
   mutable LastValues last_speeds = {}, last_speed_coordinates = {};  ///< of this table
+  mutable LastRows last_switched = {};                               ///< of this table
 
   /// The meshes' friction at a point: as designed, and as the state has it.
   [[nodiscard]] double designed_friction(const BenchPoint& p) const {

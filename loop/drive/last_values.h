@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "trueflank/base/units.h"
 
@@ -28,6 +29,25 @@ class LastValues {
   };
   std::array<Kept, 4> kept_ = {};
   std::size_t next_ = 0;
+};
+
+/// In which rows something is there, of the figures that were asked last: what a row has depends on
+/// the rows before it. Not for several threads.
+class LastRows {
+ public:
+  template <class Function>
+  [[nodiscard]] const std::vector<char>& of(const std::vector<double>& figures,
+                                            const Function& function) {
+    if (figures != figures_ || rows_.empty()) {
+      rows_ = function();
+      figures_ = figures;
+    }
+    return rows_;
+  }
+
+ private:
+  std::vector<double> figures_;
+  std::vector<char> rows_;
 };
 
 }  // namespace trueflank::loop

@@ -238,4 +238,13 @@ inline DrawnBench any_rows(std::uint64_t seed, bool both, int rows_asked = 0) {
   return bench;
 }
 
+/// A place of a quantity that so much of the rows lies below.
+template <class Quantity>
+double place_of(const DrawnBench& bench, double share, const Quantity& quantity) {
+  std::vector<double> values;
+  for (const DrawnRow& r : bench.rows) values.push_back(quantity(r));
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size()))];
+}
+
 }  // namespace trueflank::test

@@ -35,15 +35,6 @@ struct DrawnWave {
   }
 };
 
-/// A place of a quantity that so much of the rows lies below.
-template <class Quantity>
-double place_of(const DrawnBench& bench, double share, const Quantity& quantity) {
-  std::vector<double> values;
-  for (const DrawnRow& r : bench.rows) values.push_back(quantity(r));
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size()))];
-}
-
 DrawnBench turning(std::uint64_t seed, bool both) {
   DrawnBench bench = any_rows(seed, both);
   bench.with_angle = true;

@@ -90,6 +90,12 @@ const std::vector<DriveFamily>& drive_library() {
         unnamed_two_steps(),
         unnamed_bow(),
         unnamed_reading_bow(),
+        unnamed_band(),
+        unnamed_reading_band(),
+        unnamed_switched(),
+        unnamed_reading_switched(),
+        unnamed_lag(),
+        unnamed_hersey(),
     };
     for (DriveFamily& family : all) {
       family.shape_values.resize(family.shape_names.size());

@@ -98,6 +98,12 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_two_steps();
 [[nodiscard]] DriveFamily unnamed_bow();
 [[nodiscard]] DriveFamily unnamed_reading_bow();
+[[nodiscard]] DriveFamily unnamed_band();
+[[nodiscard]] DriveFamily unnamed_reading_band();
+[[nodiscard]] DriveFamily unnamed_switched();
+[[nodiscard]] DriveFamily unnamed_reading_switched();
+[[nodiscard]] DriveFamily unnamed_lag();
+[[nodiscard]] DriveFamily unnamed_hersey();
 /// @}
 
 }  // namespace trueflank::loop::drive_effects

@@ -7,6 +7,7 @@
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/drive/effects/columns.h"
+#include "trueflank/loop/drive/effects/parts_of_ranges.h"
 #include "trueflank/loop/drive/effects/registry.h"
 
 // A loss that comes in between two places and stays: evenly, or in two steps, over the load, the
@@ -30,31 +31,16 @@ constexpr double kLeastWhole = 0.1, kMostWhole = 0.93, kLeastRise = 0.06;
 constexpr double kLeastAtEnd = -0.6, kMostAtEnd = 0.3;
 constexpr double kLeastFirstStep = 0.2, kMostFirstStep = 0.8;
 
-/// 0 ... 1 from the least to the largest that was run, or the other way round.
+/// 0 ... 1 from the end of the range where it is nothing.
 double plateau_share(const DriveContext& context, const BenchPoint& p, const DriveShape& s) {
-  const double over = s[kPlateauOver], least = over == 0.0 ? context.least_share(0.0) : 0.0,
-               share =
-                   over == kOverRun ? p.taken
-                   : over == kOverDrivingLoad
-                       ? (p.load_nm - context.table.least_load_nm) /
-                             std::max(1e-12,
-                                      context.table.most_load_nm - context.table.least_load_nm)
-                       : (context.share_of_range(p, over) - least) / std::max(1e-9, 1.0 - least);
+  const double share = share_in_range(context, p, s[kPlateauOver]);
   return s[kPlateauMirrored] != 0.0 ? 1.0 - share : share;
-}
-
-bool has_plateaus_over(const DriveContext& context, double over) {
-  constexpr int kFewestLevels = 6;
-  if (over == kOverRun) return has_one_course(context);
-  const auto of = over == kOverDrivingLoad ? std::size_t{0} : static_cast<std::size_t>(over);
-  return context.table.levels[of] >= kFewestLevels &&
-         (over != 2.0 || context.table.temperature_span_c > 3.0);
 }
 
 std::vector<double> overs_of_plateaus(const DriveContext& context) {
   std::vector<double> overs;
   for (const double over : {0.0, 1.0, 2.0, kOverRun, kOverDrivingLoad})
-    if (has_plateaus_over(context, over)) overs.push_back(over);
+    if (has_parts_over(context, over)) overs.push_back(over);
   return overs;
 }
 
@@ -79,29 +65,12 @@ bool is_even_shape(const DriveShape& s) {
 /// A figure of one of the two places.
 Parameter figure_of_plateau(const DriveContext& context, const DriveShape& s,
                             const std::string& key, double place) {
-  const double over = s[kPlateauOver], share = s[kPlateauMirrored] != 0.0 ? 1.0 - place : place;
-  if (over == kOverRun) {
-    const auto& points = context.table.points;
-    for (const BenchPoint& p : points)
-      if (p.taken >= share) return figure_of(key + "line", p.line);
-    return figure_of(key + "line", points.back().line);
-  }
-  if (over == kOverDrivingLoad)
-    return figure_of(key + "input_nm",
-                     context.table.least_load_nm +
-                         share * (context.table.most_load_nm - context.table.least_load_nm));
-  const double least = over == 0.0 ? context.least_share(0.0) : 0.0,
-               quantity = context.quantity_at_share(over, least + share * (1.0 - least));
-  return over == 0.0 ? figure_of(key + "output_nm", quantity * context.model.ratio)
-                     : figure_of(key + key_of_quantity(over), quantity);
+  return figure_at_share(context, s[kPlateauOver], key,
+                         s[kPlateauMirrored] != 0.0 ? 1.0 - place : place);
 }
 
 std::string plateau_place(const DriveShape& s, const Parameter& place) {
-  if (s[kPlateauOver] == kOverRun) return "line " + with_interval(place, "");
-  const double over = s[kPlateauOver] == kOverDrivingLoad ? 0.0 : s[kPlateauOver];
-  return std::string("a ") + name_of_quantity(over) + " of " +
-         with_interval(place,
-                       s[kPlateauOver] == 0.0 ? " N m at the output" : unit_of_quantity(over));
+  return place_in_range(s[kPlateauOver], place);
 }
 
 std::string of_plateau(const DriveShape& s, const Parameter& size, double amount) {
@@ -149,10 +118,7 @@ DriveFamily plateau(bool stepped) {
     return (stepped || is_even_shape(s)) && shows_plateau(context, s, stepped);
   };
   f.words = [stepped](const DriveModel&, const DriveShape& s, const DriveContext*) {
-    const std::string over = s[kPlateauOver] == kOverRun ? "run"
-                             : s[kPlateauOver] == kOverDrivingLoad
-                                 ? "load"
-                                 : name_of_quantity(s[kPlateauOver]);
+    const std::string over = name_of_range(s[kPlateauOver]);
     return stepped ? "in two steps over the " + over
                    : "that grows evenly over a part of the " + over + " and stays";
   };

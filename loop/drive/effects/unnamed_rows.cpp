@@ -7,6 +7,7 @@
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/drive/effects/columns.h"
+#include "trueflank/loop/drive/effects/parts_of_ranges.h"
 #include "trueflank/loop/drive/effects/registry.h"
 
 // What counts rows: rows that are read by turns (two transducers, two hands on a lever), and a
@@ -14,42 +15,6 @@
 namespace trueflank::loop::drive_effects {
 
 namespace {
-
-/// A loss by what rubs, or a reading of the output's torque.
-std::vector<double> kinds_of(bool reads) {
-  return reads ? std::vector{double(kOutputReads), double(kOutputGain)}
-               : std::vector{double(kDrag), double(kFlanks)};
-}
-
-bool is_beside_the_load(double what) {
-  return what == double(kFlanks) || what == double(kOutputGain);
-}
-
-/// "a loss at the input", or whose reading it is.
-std::string subject_of(double what) {
-  return what == double(kOutputReads)  ? "a reading of the output's torque"
-         : what == double(kOutputGain) ? "a gain of the output's torque"
-                                       : "a loss at the input";
-}
-
-/// "0.2 (0.19 to 0.21) N m more", of a reading as the output reads it.
-std::string more_of(const std::vector<Parameter>& figures, double what, double amount) {
-  const bool reads = what == double(kOutputReads) || what == double(kOutputGain);
-  return with_interval(reads ? figures.back() : figures.front(), " N m") +
-         (amount > 0.0 ? " more" : " less") +
-         (is_beside_the_load(what) ? " at the largest load, in proportion to it" : "");
-}
-
-void add_reading(const DriveContext& context, double what, double amount,
-                 std::vector<Parameter>& figures) {
-  if (what == double(kOutputReads) || what == double(kOutputGain))
-    figures.push_back(figure_of("reads_more_nm", std::abs(amount) * context.model.ratio));
-}
-
-std::string same_sign(const DriveContext& context, double what) {
-  const bool both = context.table.has(true) && context.table.has(false);
-  return both && (what == double(kOutputReads) || what == double(kOutputGain)) ? kNoLoss : "";
-}
 
 enum TurnOfRows : std::size_t {
   kRowsEvery,  ///< rows after which it comes again

@@ -25,6 +25,15 @@ DriveFamily unnamed_settling() {
       for (const double share : {0.06, 0.12, 0.25}) shapes.push_back({what, share});
     return shapes;
   };
+  // Two that fall evenly, one fast and one slow, do nearly the same.
+  f.whole_shapes = [](const DriveContext& context) {
+    std::vector<DriveShape> shapes;
+    if (!has_one_course(context)) return shapes;
+    for (const double what : {double(kFlanks), double(kDrag)})
+      for (const double share : {0.04, 0.06, 0.09, 0.13, 0.19, 0.28, 0.38})
+        shapes.push_back({what, share});
+    return shapes;
+  };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& shape,
                   double* c) {
     c[0] = changed_nm(context, p, shape[0]) * std::exp(-p.taken / shape[1]);
