@@ -176,6 +176,45 @@ TEST(SpiralScan, IsADriftOfTheRadiusAndNoScale) {
   }
 }
 
+TEST(SectionsThatTurn, ByABendAreNoStepAndNoSlopeWithAName) {
+  for (unsigned seed = 1; seed <= survey_size(3U, 12U); ++seed) {
+    Draw draw = come_and_go_draw(seed);
+    const MadeGear gear = spur(draw.whole(19, 43));
+    const double um = draw.sign() * draw.between(6.0, 14.0), at = draw.between(-0.5, 0.4);
+    const bool upper = draw.whole(0, 1) == 1;
+    const auto made = grown([&](auto&, const FlankSpot& s, auto&) {
+      const double off = (upper ? s.v : -s.v) - at;
+      return off > 0.0 ? s.side * um * std::pow(off / (1.0 - at), 2) : 0.0;
+    });
+    expect_one_nameless(traced_with(gear, made, Traced::kHelicesAlone, {2, 6, 10, 14, 18},
+                                    draw.between(0.6, 1.0), seed),
+                        std::abs(um), 0.15, "and curved from there on");
+  }
+}
+
+TEST(SectionsThatTurn, InAWaveAreSeldomToldInPiecesThatUndoEachOther) {
+  const unsigned gears = survey_size(3U, 12U);
+  unsigned told = 0;
+  for (unsigned seed = 1; seed <= gears; ++seed) {
+    Draw draw = come_and_go_draw(seed);
+    const MadeGear gear = spur(draw.whole(19, 43));
+    const double um = draw.between(5.0, 12.0), waves = draw.between(0.8, 1.3),
+                 phase = draw.whole(0, 1) * draw.between(0.0, 6.28);
+    const bool face = draw.whole(0, 1) == 1;
+    const auto made = grown([&](auto&, const FlankSpot& s, auto&) {
+      return s.side * um * std::sin(kPiOfForms * waves * (face ? s.v : s.u) + phase);
+    });
+    const auto result =
+        traced_with(gear, made, face ? Traced::kHelicesAlone : Traced::kProfilesAlone,
+                    {2, 6, 10, 14, 18}, draw.between(0.6, 1.0), seed);
+    EXPECT_FALSE(has_name(result)) << list(result);
+    if (result.effects.size() != 1 || !tells(result, "opposite on the two flanks")) continue;
+    EXPECT_NEAR(amplitude_of_first(result), um, 0.12 * um) << list(result);
+    if (tells(result, face ? "waves over the face" : "waves over the profile")) ++told;
+  }
+  EXPECT_GE(12 * told, 11 * gears);
+}
+
 TEST(SlipsOfTheDrive, RiseOverSomeTeethAndStay) {
   for (unsigned seed = 1; seed <= survey_size(2U, 8U); ++seed) {
     Draw draw = come_and_go_draw(seed);

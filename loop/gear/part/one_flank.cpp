@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One flank that is off by itself, told as both.
+// One flank that is off by itself, told as both; what is opposite on the flanks, told in pieces.
 #include "trueflank/loop/gear/part/one_flank.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/runs_along.h"
+#include "trueflank/loop/gear/part/taken_up.h"
+#include "trueflank/loop/gear/shape_refinement.h"
 
 namespace trueflank::loop {
 namespace {
@@ -193,7 +196,126 @@ bool tell_level_in_two_pieces(PartModel& model) {
   return false;
 }
 
+/// Forms along the profile (0) or the face (1), opposite on the flanks, those of a family together;
+/// long waves stand last. (A strip with soft sides is too like one band.)
+std::vector<std::vector<Effect>> opposite_forms(const FlankGeometry& geometry, int face,
+                                                bool strips) {
+  std::vector<Effect> all = forms_along(geometry, face, FlankChoice::kBoth, true);
+  if (!strips)
+    std::erase_if(all, [strip = find_family("unnamed_strip")](const Effect& form) {
+      return form.family == strip;
+    });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Effect& a, const Effect& b) { return a.family->id < b.family->id; });
+  for (Effect& wave : long_waves(geometry, face, FlankChoice::kBoth))
+    all.push_back(std::move(wave));
+  std::vector<std::vector<Effect>> families;
+  for (Effect& form : all) {
+    form.shape.push_back(1.0);
+    if (families.empty() || families.back().front().family != form.family) families.emplace_back();
+    families.back().push_back(std::move(form));
+  }
+  return families;
+}
+
+/// One form in place of these, which are opposite on the flanks. A name among them was told for its
+/// mean: that is beyond doubt, or it stays. What has fewer values than several forms says as much
+/// where nothing is lost; waves may take a value more.
+bool tell_as_opposite_form(PartModel& model, const std::vector<std::size_t>& these, int face) {
+  constexpr double kBeyondDoubt = 25.0, kNothing = 4.0;  // chi-square
+  const bool named = std::any_of(these.begin(), these.end(),
+                                 [&](std::size_t e) { return model.effects[e].family->named; });
+  const double now = fit_of(model, model.effects)->residual_square();
+  const std::vector<Effect> others = without(model.effects, these);
+  std::vector<Effect> own;
+  for (const std::size_t e : these) own.push_back(model.effects[e]);
+  const int values = values_of(own, true);
+  CheapestAnswer best;
+  for (const std::vector<Effect>& forms : opposite_forms(model.geometry, face, these.size() > 1)) {
+    const int more_values = forms.front().columns() - 1;
+    std::vector<Effect> with = one_form_for(model, these, forms, {}, more_values);
+    if (with.empty() && !named && values_of({forms.front()}, true) < values) {
+      with = with_best_form(model, others, forms, {});
+      if (!with.empty() && fit_of(model, with)->residual_square() > now + kNothing) with.clear();
+    }
+    if (with.empty() || (named && fit_of(model, with)->residual_square() > now - kBeyondDoubt))
+      continue;
+    best.ask(model, std::move(with), these);
+  }
+  if (best.effects.empty()) return false;
+  put_in_place_of(model, these, best.effects);
+  return true;
+}
+
+/// A kind of form that both flanks have, each its own.
+std::vector<std::size_t> form_of_either_flank(const PartModel& model, int face) {
+  const Runs runs = face == 0 ? Runs::kOverProfile : Runs::kOverFace;
+  for (std::size_t a = first_told_here(model); a < model.effects.size(); ++a)
+    for (std::size_t b = a + 1; b < model.effects.size(); ++b) {
+      const Effect &one = model.effects[a], &other = model.effects[b];
+      if (one.family == other.family && !one.family->named && one.flank != other.flank &&
+          one.flank != FlankChoice::kBoth && other.flank != FlankChoice::kBoth &&
+          runs_of(model.geometry, one) == runs && runs_of(model.geometry, other) == runs)
+        return {a, b};
+    }
+  return {};
+}
+
+/// Waves around the gear that followed what these effects left, and are little beside one form.
+void drop_waves_of_what_was_left(PartModel& model, const std::vector<Effect>& before) {
+  constexpr double kLittle = 49.0, kShare = 0.3;  // chi-square: seven errors; of what they were
+  const auto then = fit_of(model, before);
+  const std::size_t told = model.effects.size();
+  while (model.effects.size() > 1) {
+    const auto now = fit_of(model, model.effects);
+    const auto has_shrunk = [&](const Effect& effect) {
+      if (!(effect.order() > 0.0) || effect.columns() != 2) return false;
+      const auto was = std::find(before.begin(), before.end(), effect);
+      const auto is = std::find(model.effects.begin(), model.effects.end(), effect);
+      return was != before.end() &&
+             now->effect_size_um(static_cast<int>(is - model.effects.begin())) <
+                 kShare * then->effect_size_um(static_cast<int>(was - before.begin()));
+    };
+    const auto [idle, loss] =
+        least_missed(model, first_told_here(model), model.effects.size(), has_shrunk);
+    if (!(loss < kLittle)) break;
+    remove_effect(model, idle);
+  }
+  if (model.effects.size() < told)
+    refine_nearby(model.geometry, model.table, model.patches, model.effects);
+}
+
 }  // namespace
+
+void tell_opposite_forms(PartModel& model) {
+  if (model.options.joined || model.table->rows.empty()) return;
+  const std::vector<Effect> before = model.effects;
+  bool told = false;
+  for (const int face : {0, 1}) {
+    const Runs runs = face == 0 ? Runs::kOverProfile : Runs::kOverFace;
+    std::vector<std::size_t> all, nameless;
+    for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+      const Effect& effect = model.effects[e];
+      if (effect.flank != FlankChoice::kBoth ||
+          runs_of(model.geometry, effect, Flanks::kOfEither) != runs ||
+          runs_of(model.geometry, effect) != Runs::kOtherwise)
+        continue;
+      all.push_back(e);
+      if (!effect.family->named) nameless.push_back(e);
+    }
+    const std::vector<std::size_t> either = form_of_either_flank(model, face);
+    if (!either.empty() && tell_as_opposite_form(model, either, face)) {
+      told = true;
+      continue;
+    }
+    if (nameless.empty()) continue;
+    told = tell_as_opposite_form(model, all, face) ||
+           (nameless.size() < all.size() && tell_as_opposite_form(model, nameless, face)) || told;
+  }
+  if (!told) return;
+  drop_idle_beside_one_form(model);
+  drop_waves_of_what_was_left(model, before);
+}
 
 void tell_what_one_flank_has(PartModel& model) {
   while (tell_form_of_one_flank_alone(model)) {

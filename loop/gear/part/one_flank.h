@@ -11,6 +11,10 @@ namespace trueflank::loop {
 /// and is somewhere as designed, and the other has none. So is a level of both that a wide form of
 /// one takes out again: the other flank stands out.
 void tell_what_one_flank_has(PartModel& model);
+/// One form for all that is opposite on the flanks along the profile or along the face: an S and a
+/// turn of the section were a wave, a step was a bend. Where all else is told: beside waves that
+/// are not understood yet, slopes look curved.
+void tell_opposite_forms(PartModel& model);
 /// A form of one flank, or of both in opposite directions, along the profile (0) or the face (1),
 /// for what runs that way on any flank: slopes that turn the section and bows of either flank were
 /// what it is made of. Or waves of one length on either flank, each in a phase of its own.

@@ -106,6 +106,7 @@ void explain_part(PartModel& model) {
   doubt_size_of_flanks(model);
   take_form_around(model);
   tell_what_one_flank_has(model);
+  tell_opposite_forms(model);
   tell_waves_as_pattern(model);
   name_what_is_settled(model);
   tell_likeliest_names(model);
