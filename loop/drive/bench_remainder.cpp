@@ -14,6 +14,7 @@
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/order_statistics.h"
+#include "trueflank/loop/drive/bench_neighbours.h"
 
 namespace trueflank::loop {
 namespace {
@@ -226,9 +227,8 @@ class Asking {
     judge_against(of_flips);
   }
 
-  /// Each against its own flips; beyond the largest of these by a chi-square of their spread and
-  /// skewness (Pearson's type III, Wilson and Hilferty's approximation), never below a tenth of
-  /// what flips can tell.
+  /// Each against its own flips; beyond the largest of these by their spread and skewness, never
+  /// below a tenth of what flips can tell.
   void judge_against(const Eigen::MatrixXd& of_flips) {
     const double flips = static_cast<double>(of_flips.rows());
     for (std::size_t k = 0; k < questions_.size(); ++k) {
@@ -237,11 +237,8 @@ class Asking {
       const auto values = of_flips.col(static_cast<Eigen::Index>(k)).array();
       const double mean = values.mean(), spread = std::sqrt((values - mean).square().mean());
       if (!(spread > 0.0)) continue;
-      const double skew = std::max(0.05, ((values - mean) / spread).cube().mean());
-      const double degrees = 8.0 / (skew * skew), size = (q.agreement - mean) / spread;
-      const double chi = std::max(0.0, 1.0 + size * std::sqrt(2.0 / degrees)),
-                   part = 2.0 / (9.0 * degrees);
-      const double tail = 0.5 * std::erfc((std::cbrt(chi) - 1.0 + part) / std::sqrt(2.0 * part));
+      const double tail =
+          skewed_tail((q.agreement - mean) / spread, ((values - mean) / spread).cube().mean());
       const double above = static_cast<double>((values >= q.agreement).count());
       const double asked = static_cast<double>(questions_.size());
       q.p_value = std::min(1.0, asked * std::max({tail, above / flips, 0.1 / flips}));

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "trueflank/base/number_text.h"
+#include "trueflank/base/units.h"
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/drive/bench_visits.h"
@@ -231,7 +232,7 @@ class TableMaker {
     for (std::size_t k = 0; k < far.size(); ++k)
       if (alone(k) && again[{set_point[far[k]], fit.residual_nm[far[k]] > 0.0}] < kComesAgain)
         out.push_back(far[k]);
-    if (come_again(fit, out) || is_of_a_turn(out)) return false;
+    if (come_again(fit, out) || is_of_a_turn(out) || lie_among_alike(fit, out)) return false;
     // Many rows far off, or neighbours together, are structure and no slips.
     if (out.empty() || static_cast<double>(out.size()) >
                            std::max(1.0, kMostOutliers * static_cast<double>(table_.points.size())))
@@ -290,6 +291,54 @@ class TableMaker {
       return order * table_.turns >= kTurns && seen < kAllAround &&
              far * far * static_cast<double>(out.size()) > kSure;
     });
+  }
+
+  /// Rows whose neighbours over a quantity, or at a place of a turn, lie off to the same side, if
+  /// less far, are the top of something that stands there.
+  [[nodiscard]] bool lie_among_alike(const SmoothFit& fit,
+                                     const std::vector<std::size_t>& out) const {
+    constexpr std::size_t kNeighbours = 6;
+    constexpr double kMostSize = 3.0, kSure = 5.0;
+    if (out.empty()) return false;
+    std::vector<double> orders;
+    if (table_.has_angle) {
+      orders.push_back(1.0);
+      for (const MemberOrder& member : model_.orders) orders.push_back(member.order);
+    }
+    const auto surely = [&](const auto& apart) {
+      double sum = 0.0, count = 0.0;
+      for (const std::size_t i : out) {
+        std::vector<std::pair<double, std::size_t>> others;
+        for (std::size_t j = 0; j < table_.points.size(); ++j)
+          if (table_.points[j].forward == table_.points[i].forward &&
+              std::find(out.begin(), out.end(), j) == out.end())
+            others.emplace_back(apart(table_.points[i], table_.points[j]), j);
+        const std::size_t near = std::min(kNeighbours, others.size());
+        std::partial_sort(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(near),
+                          others.end());
+        for (std::size_t k = 0; k < near; ++k) {
+          const std::size_t j = others[k].second;
+          const double size =
+              std::clamp(fit.residual_nm[j] / fit.sigma_nm[j], -kMostSize, kMostSize);
+          sum += fit.residual_nm[i] > 0.0 ? size : -size;
+          count += 1.0;
+        }
+      }
+      return sum > kSure * std::sqrt(count);
+    };
+    return std::any_of(orders.begin(), orders.end(),
+                       [&](double order) {
+                         return surely([&](const BenchPoint& a, const BenchPoint& b) {
+                           const double turns = order * (a.angle_rad - b.angle_rad) / kTwoPi;
+                           return std::abs(turns - std::round(turns));
+                         });
+                       }) ||
+           surely([](const BenchPoint& a, const BenchPoint& b) {
+             return std::abs(a.speed_rpm - b.speed_rpm);
+           }) ||
+           surely([](const BenchPoint& a, const BenchPoint& b) {
+             return std::abs(a.load_nm - b.load_nm);
+           });
   }
 
   void look_for_gains() {

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "trueflank/base/units.h"
+#include "trueflank/loop/discovery/order_statistics.h"
 
 namespace trueflank::loop {
 namespace {
@@ -185,6 +186,54 @@ double correlation_of_visits(const Eigen::VectorXd& size, const std::vector<int>
   const double freedom = means ? n - static_cast<double>(count.size()) : n;
   if (!(error.squaredNorm() > 0.0) || kept < 0.1 * n || freedom < 1.0) return 0.0;
   return std::clamp(product / kept / (error.squaredNorm() / freedom), -1.0, 1.0);
+}
+
+PartsOfRun::PartsOfRun(const std::vector<double>& column, const std::vector<double>& value,
+                       FirstLevel first)
+    : first_(first) {
+  std::vector<double> steps;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    product_.push_back(product_.back() + column[i] * value[i]);
+    square_.push_back(square_.back() + column[i] * column[i]);
+    value_.push_back(value_.back() + value[i] * value[i]);
+    if (i > 0) steps.push_back(std::abs(value[i] - value[i - 1]));
+  }
+  const double step = steps.empty() ? 0.0 : kSigmaOfMedianSize * median(steps);
+  noise_ = std::max(0.5 * step * step, 1e-300);
+}
+
+double PartsOfRun::left(std::size_t from, std::size_t to) const {
+  const double all = value_[to] - value_[from], own = square_[to] - square_[from];
+  if ((from == 0 && first_ == FirstLevel::kNothing) || !(own > 0.0)) return all;
+  const double along = product_[to] - product_[from];
+  return all - along * along / own;
+}
+
+double PartsOfRun::level(std::size_t from, std::size_t to) const {
+  const double own = square_[to] - square_[from];
+  return own > 0.0 ? (product_[to] - product_[from]) / own : 0.0;
+}
+
+std::vector<std::size_t> PartsOfRun::likeliest_cuts() const {
+  constexpr std::size_t kFewestOfAPart = 4, kMostRows = 1500;
+  constexpr double kEachFigure = 6.6;  // chi-square
+  const std::size_t n = rows();
+  if (n > kMostRows) return {};
+  const double cost =
+      noise_ * (kEachFigure + 2.0 * std::log(std::max(1.0, static_cast<double>(n))));
+  std::vector<double> least(n + 1, 1e300);
+  std::vector<std::size_t> from(n + 1, 0), cuts;
+  for (std::size_t to = kFewestOfAPart; to <= n; ++to) {
+    least[to] = left(0, to);
+    for (std::size_t cut = kFewestOfAPart; cut + kFewestOfAPart <= to; ++cut)
+      if (const double with = least[cut] + cost + left(cut, to); with < least[to]) {
+        least[to] = with;
+        from[to] = cut;
+      }
+  }
+  for (std::size_t to = n; from[to] != 0; to = from[to]) cuts.push_back(from[to]);
+  std::reverse(cuts.begin(), cuts.end());
+  return cuts;
 }
 
 }  // namespace trueflank::loop

@@ -54,6 +54,28 @@ void take_means(Eigen::VectorXd& values, const std::vector<int>& cell);
 void take_slow(Eigen::VectorXd& values, int waves);
 /// @}
 
+/// Whether a series has a level before it first changes.
+enum class FirstLevel { kNothing, kAny };
+
+/// A series in its rows' order, cut into parts of which each has a level of its own: `column`, what
+/// 1 of a level makes of every row.
+class PartsOfRun {
+ public:
+  PartsOfRun(const std::vector<double>& column, const std::vector<double>& value, FirstLevel first);
+  [[nodiscard]] std::size_t rows() const { return value_.size() - 1; }
+  /// What the level of rows [from, to) leaves of their squares, and the level.
+  [[nodiscard]] double left(std::size_t from, std::size_t to) const;
+  [[nodiscard]] double level(std::size_t from, std::size_t to) const;
+  /// First rows of all parts but the first, of the cut that leaves least: every part costs a figure
+  /// and its place, in the scatter of rows that follow each other. Of more than 1500 rows none.
+  [[nodiscard]] std::vector<std::size_t> likeliest_cuts() const;
+
+ private:
+  FirstLevel first_;
+  std::vector<double> product_{0.0}, square_{0.0}, value_{0.0};  ///< sums up to every row
+  double noise_ = 0.0;
+};
+
 /// Notes of every row, in the order they were taken, whether the load rises or falls, and how long
 /// ago the direction changed. A load must move by a fortieth of the largest to have turned; a dwell
 /// at the turn is half of the way before and half of the one after.

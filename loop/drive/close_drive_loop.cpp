@@ -10,6 +10,7 @@
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/drive/bench_neighbours.h"
 #include "trueflank/loop/drive/bench_remainder.h"
 #include "trueflank/loop/drive/bench_scatter.h"
 #include "trueflank/loop/drive/bench_visits.h"
@@ -96,8 +97,7 @@ class DriveReport {
     r.before = drive_errors(here, selection_.value_nm(), selection_.value_nm());
     r.after = drive_errors(here, left, left_training);
     const double n = static_cast<double>(selection_.table().points.size());
-    const BenchRemainder remainder =
-        ask_remainder(selection_.table(), selection_.model().ratio, left);
+    const BenchRemainder remainder = remainder_of(effects, left);
     r.noise = remainder.follows.empty()
                   ? r.after.rms * std::sqrt(n / std::max(1.0, n - outcome.size()))
                   : remainder.noise_nm;
@@ -130,6 +130,26 @@ class DriveReport {
     done.state = selection_.state();
     done.table = selection_.take_table();
     return done;
+  }
+
+  /// What is left, asked apart from all candidates: by its kinds of rows, and by neighbours.
+  [[nodiscard]] BenchRemainder remainder_of(const std::vector<DriveEffect>& effects,
+                                            const Eigen::VectorXd& left) const {
+    const double ratio = selection_.model().ratio;
+    BenchRemainder remainder = ask_remainder(selection_.table(), ratio, left);
+    std::vector<double> orders;
+    for (const DriveEffect& e : effects)
+      if (const double order = e.order(); order > 0.0) orders.push_back(order);
+    const SharedByNearRows near = ask_neighbours(selection_.table(), ratio, orders, left);
+    if (near.told.empty()) return remainder;
+    if (remainder.follows.empty()) {
+      remainder.follows = "what is left " + near.told;
+      remainder.p_value = near.p_value;
+      remainder.share = near.share;
+      remainder.noise_nm = near.noise_nm;
+    }
+    remainder.noise_nm = std::min(remainder.noise_nm, near.noise_nm);
+    return remainder;
   }
 
   /// Where effects that have places may lie, and of places that explain as much one that was run.

@@ -177,6 +177,11 @@ struct DriveFamily : EffectFacts {
   /// The shape of what is there at times and at times not, of the places of the run where it begins
   /// and ends in turn, that a scan proposes; empty: it takes none.
   std::function<DriveShape(double what, const std::vector<double>& changes)> shape_of_states = {};
+  /// The shape of what stands at levels between which the run jumps, the largest of them 1, and the
+  /// levels [N m at the input] of a shape; empty: it takes none.
+  std::function<DriveShape(double what, const std::vector<double>& changes,
+                           const std::vector<double>& levels)>
+      shape_of_levels = {};
   /// What it leaves falls in steps over its place: it is sought among all of them.
   bool falls_in_steps = false;
   /// It jumps once in the course of the run, at its second shape value (-1 ... 1 over the run).
@@ -185,6 +190,8 @@ struct DriveFamily : EffectFacts {
   bool is_wave_of_sizes = false;
   /// A wave of a part of the loads, speeds, temperatures or the run: asked by the spectra of parts.
   bool is_wave_of_part = false;
+  /// A wave that is largest at a speed: asked at the orders of waves that were found.
+  bool is_resonant_wave = false;
   /// The shapes by which it may be what a spectrum shows at an order; empty: none.
   std::function<std::vector<DriveShape>(const DriveContext&, double order)> shapes_at_order = {};
   /// The shape of a slow course of the run, a polynomial, that a scan proposes; empty: it takes none.

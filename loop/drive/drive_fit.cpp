@@ -273,6 +273,27 @@ DriveShape states_beside(const DriveContext& context, const Eigen::VectorXd& val
       shape[0], changes_of_states(context, left, shape[0], rows, {shape.begin() + 1, shape.end()}));
 }
 
+/// The levels of the run by the fit's rows, and the changes where these rows say, beside the other
+/// effects as the fit has them.
+DriveShape levels_beside_fit(const DriveContext& context, const Eigen::VectorXd& value,
+                             const DriveFit& fit, std::size_t effect, FitRows rows_of_changes,
+                             FitRows rows_of_levels) {
+  const DriveEffect& levels = fit.effects()[effect];
+  const Eigen::VectorXd left =
+      value - fit.explained_nm() + fit.explained_nm(static_cast<int>(effect));
+  const auto first = levels.shape.begin() + 1;
+  const auto count = static_cast<std::ptrdiff_t>((levels.shape.size() - 1) / 2);
+  const LevelsOfRun moved =
+      levels_beside(context, left, levels.shape[0], rows_of_changes, {first, first + count});
+  if (moved.changes.empty()) return levels.shape;
+  const LevelsOfRun seen =
+      rows_of_levels == rows_of_changes
+          ? moved
+          : levels_as_cut(context, left, levels.shape[0], rows_of_levels, moved.changes);
+  if (seen.changes.empty()) return levels.shape;
+  return levels.family->shape_of_levels(levels.shape[0], moved.changes, seen.levels);
+}
+
 /// A jump between two rows that the fit saw may be anywhere between them: where those that are
 /// locked away say. The fit is the same.
 DriveShape jump_beside_all(const DriveContext& context, const Eigen::VectorXd& value,
@@ -362,6 +383,12 @@ void refine_drive_shapes(const DriveContext& context, const Eigen::VectorXd& val
               states_beside(context, value, DriveFit(context, value, effects, rows), e, rows);
         continue;
       }
+      if (effects[e].family->shape_of_levels) {
+        if (round == 0)
+          effects[e].shape = levels_beside_fit(
+              context, value, DriveFit(context, value, effects, rows), e, rows, rows);
+        continue;
+      }
       for (std::size_t k = 0; k < effects[e].shape.size(); ++k) {
         const DriveShapeValue& value_of_shape = effects[e].family->shape_values[k];
         if (!value_of_shape.continuous) continue;
@@ -414,6 +441,10 @@ std::vector<DriveEffect> with_states_of_all_rows(const DriveContext& context,
     if (effects[e].family->shape_of_states)
       effects[e].shape = states_beside(
           context, value, DriveFit(context, value, effects, FitRows::kTraining), e, FitRows::kAll);
+    if (effects[e].family->shape_of_levels)
+      effects[e].shape =
+          levels_beside_fit(context, value, DriveFit(context, value, effects, FitRows::kTraining),
+                            e, FitRows::kAll, FitRows::kTraining);
     if (effects[e].family->jumps_in_run)
       effects[e].shape = jump_beside_all(context, value, effects, e);
     else if (effects[e].family->falls_in_steps && effects[e].family->all_shapes)

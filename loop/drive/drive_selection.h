@@ -211,6 +211,10 @@ class DriveSelection {
   /// Waves of one direction, or of a part of the range, of which the spectra of parts tell.
   void add_waves_of_parts(const std::vector<DriveEffect>& base,
                           std::vector<WholeForm>& forms) const;
+  /// Of this order the likeliest wave that grows with the square of the speed, and the likeliest
+  /// that is largest at a speed.
+  [[nodiscard]] std::vector<DriveEffect> waves_by_speed(const std::vector<DriveEffect>& base,
+                                                        double order) const;
   void add_waves_over_the_angle(const std::vector<DriveEffect>& base,
                                 std::vector<WholeForm>& forms) const;
   /// Of places that leave the same of the rows seen those that are locked away say which it is: on
@@ -220,6 +224,8 @@ class DriveSelection {
   [[nodiscard]] bool is_denied(DriveOutcome outcome);
   /// Two levels far apart, of which every row may have either.
   void tell_as_scattered_states(DriveOutcome& outcome);
+  /// Levels that are new after every jump of the run, in place of all that follows the run.
+  void tell_as_levels_of_the_run(DriveOutcome& outcome);
   /// `with_places`: also where a loss begins, jumps or stands out.
   [[nodiscard]] std::vector<WholeForm> whole_forms(const std::vector<DriveEffect>& base,
                                                    bool with_places) const;

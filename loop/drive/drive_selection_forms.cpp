@@ -35,7 +35,8 @@ bool is_of_the_run(const DriveEffect& effect, double over) {
 int size_with_changes(const std::vector<DriveEffect>& effects) {
   int size = size_of(effects);
   for (const DriveEffect& e : effects)
-    if (e.family->shape_of_states) size += static_cast<int>(e.shape.size()) - 1;
+    if (e.family->shape_of_states || e.family->shape_of_levels)
+      size += static_cast<int>(e.shape.size()) - 1;
   return size;
 }
 

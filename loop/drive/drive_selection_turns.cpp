@@ -4,6 +4,7 @@
 #include <set>
 
 #include "trueflank/loop/drive/drive_selection.h"
+#include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/one_form.h"
 #include "trueflank/loop/drive/place_profile.h"
 
@@ -76,14 +77,15 @@ void DriveSelection::tell_as_one_place_of_a_turn(DriveOutcome& outcome) {
     const BesideEffects beside(here, value_, base.effects, FitRows::kTraining);
     DriveShape best;
     double most = 0.0;
-    for (const double half : {0.01, 0.02, 0.04, 0.08, 0.15})
-      for (double centre = 0.0; centre < 1.0; centre += 0.5 * half) {
-        const DriveShape shape{*turn, centre, half};
-        if (const double gain = beside.with({&*bump, shape}).gain; gain > most) {
-          most = gain;
-          best = shape;
+    for (const double which : drive_effects::directions_alone(here))
+      for (const double half : {0.01, 0.02, 0.04, 0.08, 0.15})
+        for (double centre = 0.0; centre < 1.0; centre += 0.5 * half) {
+          const DriveShape shape{*turn, centre, half, which};
+          if (const double gain = beside.with({&*bump, shape}).gain; gain > most) {
+            most = gain;
+            best = shape;
+          }
         }
-      }
     if (most > 0.0) {
       OneForm set = base;
       set.effects.push_back({&*bump, best});

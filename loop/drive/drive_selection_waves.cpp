@@ -93,11 +93,13 @@ void DriveSelection::tell_waves(DriveOutcome& outcome) {
       most = gain;
       best = std::move(shape);
     }
+    std::vector<DriveEffect> waves = waves_by_speed(base.effects, order);
+    for (const auto& [kind, likely] : likeliest) waves.push_back({&wave_family(), likely.second});
     OneForm best = now;
     double noise = now.square / std::max(1.0, outcome.rows - now.size);
-    for (const auto& [kind, likely] : likeliest) {
+    for (const DriveEffect& wave : waves) {
       OneForm set = base;
-      set.effects.push_back({&wave_family(), likely.second});
+      set.effects.push_back(wave);
       set.from.push_back(-1);
       refine_drive_shapes(context(), value_, FitRows::kTraining, set.effects);
       const PlaceProfile finer = profile_of_place(here, value_, set.effects, set.effects.size() - 1,
@@ -114,6 +116,89 @@ void DriveSelection::tell_waves(DriveOutcome& outcome) {
   }
 }
 
+std::vector<DriveEffect> DriveSelection::waves_by_speed(const std::vector<DriveEffect>& base,
+                                                        double order) const {
+  constexpr int kSpeeds = 12;
+  constexpr double kFewestSpeeds = 6.0;
+  if (table_.levels[1] < kFewestSpeeds || !(table_.least_speed_rpm > 0.0)) return {};
+  const DriveContext here = context();
+  const DriveFamily& resonant =
+      *std::find_if(drive_library().begin(), drive_library().end(),
+                    [](const DriveFamily& f) { return f.is_resonant_wave; });
+  if (!may_be_there(resonant)) return {};
+  const Eigen::VectorXd left =
+      value_ - DriveFit(here, value_, base, FitRows::kTraining).explained_nm();
+  // Two columns of every size over the speed, each row in its noise's units.
+  struct Waves {
+    DriveEffect effect;
+    double gain = 0.0;
+  };
+  const auto likeliest_of = [&](const DriveFamily& family, const std::vector<DriveShape>& shapes) {
+    Waves most{{&family, {}}, 0.0};
+    for (const DriveShape& shape : shapes) {
+      Eigen::Matrix2d gram = Eigen::Matrix2d::Zero();
+      Eigen::Vector2d along = Eigen::Vector2d::Zero();
+      DriveShape sine = shape;
+      sine[drive_effects::kWavePhase] = 0.25;
+      for (std::size_t i = 0; i < table_.points.size(); ++i) {
+        const BenchPoint& p = table_.points[i];
+        if (p.fold == 0) continue;
+        Eigen::Vector2d c;
+        family.evaluate(here, p, shape, &c[0]);
+        family.evaluate(here, p, sine, &c[1]);
+        c /= p.sigma_nm;
+        gram += c * c.transpose();
+        along += c * (left[static_cast<Eigen::Index>(i)] / p.sigma_nm);
+      }
+      const double determinant = gram(0, 0) * gram(1, 1) - gram(0, 1) * gram(1, 0);
+      if (!(determinant > 1e-9 * gram(0, 0) * gram(1, 1))) continue;
+      const Eigen::Vector2d b{(gram(1, 1) * along[0] - gram(0, 1) * along[1]) / determinant,
+                              (gram(0, 0) * along[1] - gram(1, 0) * along[0]) / determinant};
+      if (const double gain = b.dot(along); gain > most.gain) {
+        most = {{&family, shape}, gain};
+        const double phase = std::atan2(b[1], b[0]) / kTwoPi;
+        most.effect.shape[drive_effects::kWavePhase] = phase - std::floor(phase);
+      }
+    }
+    return most;
+  };
+  std::vector<Waves> best;
+  const double by = std::log(table_.most_speed_rpm / table_.least_speed_rpm) / (kSpeeds + 1);
+  for (const double direction : {0.0, drive_effects::kAsItReads}) {
+    if (direction != 0.0 && !(table_.has(true) && table_.has(false))) continue;
+    std::vector<DriveShape> even, squares, resonances;
+    for (const double apart : {-0.25, 0.0, 0.25}) {
+      const double at = order + apart / std::max(1.0, table_.turns);
+      if (!(at > 0.0)) continue;
+      even.push_back({at, double(drive_effects::kWaveEven), direction, 0.0});
+      squares.push_back({at, double(drive_effects::kWaveWithSpeedSquare), direction, 0.0});
+      for (int speed = 1; speed <= kSpeeds; ++speed)
+        for (const double half : {0.12, 0.3, 0.7})
+          resonances.push_back({at, double(drive_effects::kWaveEven), direction, 0.0,
+                                table_.least_speed_rpm * std::exp(by * speed), half});
+    }
+    // (what goes with the speed leaves clearly less than the same at all speeds)
+    constexpr double kClearlyMore = 1.3;
+    const double least = kClearlyMore * likeliest_of(wave_family(), even).gain;
+    for (const Waves& waves :
+         {likeliest_of(wave_family(), squares), likeliest_of(resonant, resonances)})
+      if (waves.gain > least) best.push_back(waves);
+  }
+  std::vector<DriveEffect> waves;
+  for (const Waves& wave : best) {
+    std::vector<DriveEffect> effects = base;
+    effects.push_back(wave.effect);
+    for (int round = 0; round < 2; ++round) {
+      refine_drive_shapes(here, value_, FitRows::kTraining, effects);
+      effects.back().shape =
+          profile_of_place(here, value_, effects, effects.size() - 1, FitRows::kTraining, 0.0)
+              .shape;
+    }
+    waves.push_back(effects.back());
+  }
+  return waves;
+}
+
 void DriveSelection::add_waves_of_parts(const std::vector<DriveEffect>& base,
                                         std::vector<WholeForm>& forms) const {
   if (!table_.has_angle) return;
@@ -127,6 +212,7 @@ void DriveSelection::add_waves_of_parts(const std::vector<DriveEffect>& base,
   const DriveContext here = context();
   const DriveFit fit(here, value_, base, FitRows::kTraining);
   const BesideEffects beside(here, value_, base, FitRows::kTraining);
+  std::vector<double> orders;
   for (const PartWave& wave : waves_of_parts(here, value_ - fit.explained_nm())) {
     const DriveFamily* family = wave.is_of_part ? of_part : sized;
     DriveEffect effect{family, wave.shape};
@@ -141,7 +227,18 @@ void DriveSelection::add_waves_of_parts(const std::vector<DriveEffect>& base,
           effect.shape);
     }
     forms.push_back({effect, beside.with(effect).gain, cost_of_looks(wave.looks) + family->dearer});
+    if (std::none_of(orders.begin(), orders.end(), [&](double order) {
+          return std::abs(order - effect.order()) < 0.5 / std::max(1.0, table_.turns);
+        }))
+      orders.push_back(effect.order());
   }
+  // Of these orders also those whose size goes with the speed otherwise.
+  constexpr std::size_t kMostOrders = 3;
+  if (orders.size() > kMostOrders) orders.resize(kMostOrders);
+  for (const double order : orders)
+    for (const DriveEffect& wave : waves_by_speed(base, order))
+      forms.push_back({wave, beside.with(wave).gain,
+                       cost_of_looks(10 * table_.points.size()) + wave.family->dearer});
 }
 
 void DriveSelection::add_waves_over_the_angle(const std::vector<DriveEffect>& base,

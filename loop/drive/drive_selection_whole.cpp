@@ -14,7 +14,6 @@
 #include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/one_form.h"
 #include "trueflank/loop/drive/place_profile.h"
-#include "trueflank/loop/drive/states_scan.h"
 
 // One form in place of all that was chosen, or beside what has a name: asked by what it leaves,
 // once the others are chosen.
@@ -102,13 +101,6 @@ double shared_along(const DriveContext& context, const Eigen::VectorXd& value,
   return weight > 0.0 ? std::max(1.0, together / weight) : 1.0;
 }
 
-/// Of a set that holds what is there at times, by chance: what says when costs as much as chance
-/// takes off where every row may be either.
-double cost_of_changes(double rows, double changes) {
-  const double often = std::clamp(changes / rows, 1.0 / rows, 0.5);
-  return -2.0 * rows * (often * std::log(often) + (1.0 - often) * std::log(1.0 - often));
-}
-
 }  // namespace
 
 void DriveSelection::tell_as_whole_forms(DriveOutcome& outcome) {
@@ -122,13 +114,14 @@ void DriveSelection::tell_as_whole_forms(DriveOutcome& outcome) {
   for (int round = 0; round < 2; ++round)
     if (!tell_as_one_whole(outcome, round == 0)) break;
   tell_as_scattered_states(outcome);
+  tell_as_levels_of_the_run(outcome);
 }
 
 DriveSelection::OneForm DriveSelection::as_it_is(const DriveOutcome& outcome) const {
   OneForm now{.effects = outcome.effects, .from = {}, .size = size_of(outcome.effects)};
   for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
     now.from.push_back(static_cast<int>(e));
-    if (outcome.effects[e].family->shape_of_states)
+    if (outcome.effects[e].family->shape_of_states || outcome.effects[e].family->shape_of_levels)
       now.size += static_cast<int>(outcome.effects[e].shape.size()) - 1;
   }
   const DriveContext here = context();
@@ -518,53 +511,6 @@ std::vector<DriveSelection::WholeForm> DriveSelection::whole_forms(
       refined.push_back({{form.effect.family, kin}, form.gain, form.looks});
   }
   return refined;
-}
-
-void DriveSelection::tell_as_scattered_states(DriveOutcome& outcome) {
-  constexpr double kClearly = 20.0, kMostLeft = 0.5;
-  if (gains_power() && !losses_beside_gains_) return;
-  const OneForm now = as_it_is(outcome);
-  const auto host = std::find_if(drive_library().begin(), drive_library().end(),
-                                 [](const DriveFamily& f) { return bool(f.shape_of_states); });
-  OneForm best;
-  double least = 1e300, noise = now.square / std::max(1.0, outcome.rows - now.size);
-  for (const bool with_drag : {false, true}) {
-    OneForm set;
-    for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
-      const DriveFamily& f = *outcome.effects[e].family;
-      if (!f.named || f.drifts || f.follows_the_run || (!with_drag && f.follows == "nothing"))
-        continue;
-      set.effects.push_back(outcome.effects[e]);
-      set.from.push_back(static_cast<int>(e));
-    }
-    const DriveContext here = context();
-    LikeliestStates states;
-    Eigen::VectorXd left =
-        value_ - DriveFit(here, value_, set.effects, FitRows::kTraining).explained_nm();
-    for (int round = 0; round < 3; ++round) {
-      states = scattered_states(here, left);
-      if (states.changes.empty()) break;
-      std::vector<DriveEffect> together = set.effects;
-      together.push_back({&*host, host->shape_of_states(states.what, states.changes)});
-      const DriveFit fit(here, value_, together, FitRows::kTraining);
-      left = value_ - fit.explained_nm() + fit.explained_nm(static_cast<int>(together.size()) - 1);
-    }
-    if (states.changes.empty()) continue;
-    set.effects.push_back({&*host, host->shape_of_states(states.what, states.changes)});
-    set.from.push_back(-1);
-    if (!fits(set)) continue;
-    set.size = size_of(set.effects);
-    noise = std::min(noise, set.square / std::max(1.0, outcome.rows - set.size));
-    const double figure = set.figure(noise) +
-                          cost_of_changes(outcome.rows, static_cast<double>(states.changes.size()));
-    if (figure >= least) continue;
-    least = figure;
-    best = set;
-  }
-  if (best.effects.empty() || best.square > kMostLeft * now.square) return;
-  const double gain = now.figure(noise) - least;
-  if (gain < kClearly) return;
-  exchange_as_sure(outcome, best, gain);
 }
 
 }  // namespace trueflank::loop

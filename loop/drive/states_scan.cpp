@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "trueflank/loop/discovery/order_statistics.h"
+#include "trueflank/loop/drive/bench_visits.h"
 #include "trueflank/loop/drive/effects/columns.h"
 
 namespace trueflank::loop {
@@ -329,6 +331,79 @@ std::vector<double> changes_of_states(const DriveContext& context, const Eigen::
   fit_levels(s, states);
   states = settled_states(s, states);
   return states.changes < kFewestChanges ? changes : changes_of(context, s, states);
+}
+
+namespace {
+
+PartsOfRun parts_of(const Series& s) { return {s.column, s.value, FirstLevel::kNothing}; }
+
+/// First rows of the levels, from places of the run; and back.
+std::vector<std::size_t> cuts_at(const DriveContext& context, const Series& s,
+                                 const std::vector<double>& changes) {
+  std::vector<std::size_t> cuts;
+  for (const double change : changes)
+    cuts.push_back(
+        static_cast<std::size_t>(std::count_if(s.row.begin(), s.row.end(), [&](std::size_t row) {
+          return context.table.points[row].taken <= change;
+        })));
+  return cuts;
+}
+/// True where every level, and what is before the first, has rows.
+bool are_cuts(const std::vector<std::size_t>& cuts, std::size_t rows) {
+  return !cuts.empty() && cuts.front() > 0 && cuts.back() < rows &&
+         std::adjacent_find(cuts.begin(), cuts.end(), std::greater_equal<>()) == cuts.end();
+}
+LevelsOfRun levels_at(const DriveContext& context, const Series& s, const PartsOfRun& parts,
+                      const std::vector<std::size_t>& cuts) {
+  const auto& points = context.table.points;
+  LevelsOfRun found;
+  for (std::size_t k = 0; k < cuts.size(); ++k) {
+    const std::size_t next = k + 1 < cuts.size() ? cuts[k + 1] : parts.rows();
+    found.changes.push_back(0.5 *
+                            (points[s.row[cuts[k] - 1]].taken + points[s.row[cuts[k]]].taken));
+    found.levels.push_back(parts.level(cuts[k], next));
+  }
+  return found;
+}
+
+}  // namespace
+
+LevelsOfRun likeliest_levels(const DriveContext& context, const Eigen::VectorXd& left,
+                             double what) {
+  const auto& points = context.table.points;
+  const Series s = series_of(context, left, what, FitRows::kTraining);
+  if (s.value.size() < kFewestRowsOfStates || points.front().file != points.back().file) return {};
+  const PartsOfRun parts = parts_of(s);
+  const std::vector<std::size_t> cuts = parts.likeliest_cuts();
+  return levels_at(context, s, parts, cuts);
+}
+
+LevelsOfRun levels_beside(const DriveContext& context, const Eigen::VectorXd& left, double what,
+                          FitRows rows, std::vector<double> changes) {
+  const Series s = series_of(context, left, what, rows);
+  const PartsOfRun parts = parts_of(s);
+  std::vector<std::size_t> cuts = cuts_at(context, s, changes);
+  for (int round = 0; round < 3; ++round)
+    for (std::size_t k = 0; k < cuts.size(); ++k) {
+      const std::size_t before = k == 0 ? 0 : cuts[k - 1],
+                        after = k + 1 < cuts.size() ? cuts[k + 1] : parts.rows();
+      double least = parts.left(before, cuts[k]) + parts.left(cuts[k], after);
+      for (std::size_t cut = before + 1; cut < after; ++cut)
+        if (const double here = parts.left(before, cut) + parts.left(cut, after); here < least) {
+          least = here;
+          cuts[k] = cut;
+        }
+    }
+  if (!are_cuts(cuts, parts.rows())) return {};
+  return levels_at(context, s, parts, cuts);
+}
+
+LevelsOfRun levels_as_cut(const DriveContext& context, const Eigen::VectorXd& left, double what,
+                          FitRows rows, const std::vector<double>& changes) {
+  const Series s = series_of(context, left, what, rows);
+  const std::vector<std::size_t> cuts = cuts_at(context, s, changes);
+  if (!are_cuts(cuts, s.row.size())) return {};
+  return levels_at(context, s, parts_of(s), cuts);
 }
 
 }  // namespace trueflank::loop

@@ -37,4 +37,21 @@ struct LikeliestStates {
                                                     FitRows rows,
                                                     const std::vector<double>& changes);
 
+/// Levels between which a run jumps: each new, and as long as it lasts.
+struct LevelsOfRun {
+  std::vector<double> changes;  ///< 0 ... 1 of the run, between rows
+  std::vector<double> levels;   ///< after each of them [N m at the input]; before the first 0
+};
+/// The likeliest of what `left` holds of one kind; `changes` is empty where there are none such.
+/// The scatter of rows that follow each other is taken for noise.
+[[nodiscard]] LevelsOfRun likeliest_levels(const DriveContext& context, const Eigen::VectorXd& left,
+                                           double what);
+/// As many changes as these, moved to where these rows say, and their levels.
+[[nodiscard]] LevelsOfRun levels_beside(const DriveContext& context, const Eigen::VectorXd& left,
+                                        double what, FitRows rows, std::vector<double> changes);
+/// The levels between changes that stay where they are.
+[[nodiscard]] LevelsOfRun levels_as_cut(const DriveContext& context, const Eigen::VectorXd& left,
+                                        double what, FitRows rows,
+                                        const std::vector<double>& changes);
+
 }  // namespace trueflank::loop

@@ -56,7 +56,8 @@ enum WaveHow {
   kWaveByRows,
   kWaveWithSpeed,
   kWaveWithWarmth,
-  kWaveWithCold
+  kWaveWithCold,
+  kWaveWithSpeedSquare
 };
 /// The values of a wave of sizes: `kWaveDirection` is that of in_direction(). The last three are
 /// those of one that a part of the range alone has.

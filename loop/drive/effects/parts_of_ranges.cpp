@@ -6,13 +6,9 @@
 
 namespace trueflank::loop::drive_effects {
 
-namespace {
-
 bool is_beside_the_load(double what) {
   return what == double(kFlanks) || what == double(kOutputGain);
 }
-
-}  // namespace
 
 bool has_parts_over(const DriveContext& context, double over) {
   constexpr int kFewestLevels = 6;

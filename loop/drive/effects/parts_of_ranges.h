@@ -37,6 +37,8 @@ namespace trueflank::loop::drive_effects {
 
 /// A loss by what rubs, or a reading of the output's torque.
 [[nodiscard]] std::vector<double> kinds_of(bool reads);
+/// True of what is in proportion to the load.
+[[nodiscard]] bool is_beside_the_load(double what);
 /// "a loss at the input", or whose reading it is.
 [[nodiscard]] std::string subject_of(double what);
 /// "0.2 (0.19 to 0.21) N m more", of a reading as the output reads it.

@@ -75,6 +75,7 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_power_onset();
 [[nodiscard]] DriveFamily unnamed_wave();
 [[nodiscard]] DriveFamily unnamed_part_wave();
+[[nodiscard]] DriveFamily unnamed_resonant_wave();
 [[nodiscard]] DriveFamily unnamed_states();
 [[nodiscard]] DriveFamily unnamed_coordinate_wave();
 [[nodiscard]] DriveFamily unnamed_reading_coordinate_wave();
@@ -87,6 +88,10 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_reading_by_turns();
 [[nodiscard]] DriveFamily unnamed_block();
 [[nodiscard]] DriveFamily unnamed_reading_block();
+[[nodiscard]] DriveFamily unnamed_row_sawtooth();
+[[nodiscard]] DriveFamily unnamed_reading_row_sawtooth();
+[[nodiscard]] DriveFamily unnamed_levels();
+[[nodiscard]] DriveFamily unnamed_reading_levels();
 [[nodiscard]] DriveFamily unnamed_corner();
 [[nodiscard]] DriveFamily unnamed_reading_corner();
 [[nodiscard]] DriveFamily unnamed_reading_in_steps();

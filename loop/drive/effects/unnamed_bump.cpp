@@ -14,7 +14,7 @@ namespace trueflank::loop::drive_effects {
 
 namespace {
 
-enum BumpValue : std::size_t { kBumpOrder, kBumpCentre, kBumpHalf };
+enum BumpValue : std::size_t { kBumpOrder, kBumpCentre, kBumpHalf, kBumpDirection };
 
 /// Turns of the drive's members, and places that come several times in a turn of the input.
 std::vector<double> bump_orders(const DriveContext& context) {
@@ -40,24 +40,28 @@ std::vector<double> bump_orders(const DriveContext& context) {
 DriveFamily unnamed_bump() {
   DriveFamily f = without_a_name();
   f.parameters = {"amount_nm"};
-  f.shape_names = {"order", "centre", "half_width"};  // the two in turns
+  f.shape_names = {"order", "centre", "half_width", "which_direction"};  // the two in turns
   f.preference = 8;
   f.stands_alone = true;
   f.dearer = kDearerForms;
   f.shape_values = {
       {},
       {.continuous = true, .is_place = true, .reach = 0.03},
-      {.continuous = true, .limits = [](const DriveContext&) { return std::pair(0.004, 0.2); }}};
+      {.continuous = true, .limits = [](const DriveContext&) { return std::pair(0.004, 0.2); }},
+      {}};
   // Waves and parts of a turn that were found say where to look.
   f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
   f.turns_per_turn = first_value;
-  f.kind = [](const DriveShape& s) { return s[kBumpOrder] == 1.0 ? 1 : 0; };
+  f.kind = [](const DriveShape& s) {
+    return 2 * static_cast<int>(s[kBumpDirection]) + (s[kBumpOrder] == 1.0 ? 1 : 0);
+  };
   f.whole_shapes = [](const DriveContext& context) {
     std::vector<DriveShape> shapes;
     for (const double order : bump_orders(context))
       for (const double half : {0.015, 0.03, 0.06, 0.12})
         for (double centre = 0.0; centre < 1.0; centre += 0.6 * half)
-          shapes.push_back({order, centre, half});
+          for (const double which : directions_alone(context))
+            shapes.push_back({order, centre, half, which});
     return shapes;
   };
   f.all_shapes = [](const DriveContext& context, const DriveShape* about) {
@@ -66,7 +70,7 @@ DriveFamily unnamed_bump() {
     for (const double by : growing_steps(context, 0.01, 1.0))
       for (const double wider : growing_steps(context, 0.02, 0.7))
         shapes.push_back({(*about)[kBumpOrder], (*about)[kBumpCentre] + by * (*about)[kBumpHalf],
-                          (*about)[kBumpHalf] * std::exp(wider)});
+                          (*about)[kBumpHalf] * std::exp(wider), (*about)[kBumpDirection]});
     return shapes;
   };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
@@ -74,7 +78,7 @@ DriveFamily unnamed_bump() {
     double off = place_of_spell(p, s[kBumpOrder]) - s[kBumpCentre];
     off -= std::round(off);
     const double x = off / s[kBumpHalf];
-    c[0] = x * x < 40.0 ? -context.lever(p) * std::exp2(-x * x) : 0.0;
+    c[0] = x * x < 40.0 ? std::exp2(-x * x) * in_direction(context, p, s[kBumpDirection]) : 0.0;
   };
   f.figures = [](const DriveContext&, const DriveShape& s, double amount) {
     return std::vector<Parameter>{figure_of("order", s[kBumpOrder]),
@@ -93,9 +97,11 @@ DriveFamily unnamed_bump() {
                                      : "";
     return "a short loss once in every turn " + turn_in_words(context.model, s[kBumpOrder]) +
            of_input + ": " + with_interval(figures[3], " N m") +
-           (amount > 0.0 ? " more" : " less") + " at " + with_interval(figures[1], " degrees") +
-           " of it, half of that " + with_interval(figures[2], " degrees") +
-           " to either side (a chip, a damaged tooth, a tight place?)";
+           (amount > 0.0 ? " more" : " less") + direction_in_words(s[kBumpDirection]) + " at " +
+           with_interval(figures[1], " degrees") + " of it, half of that " +
+           with_interval(figures[2], " degrees") + " to either side" +
+           (s[kBumpDirection] == 0.0 ? "" : ", and nothing in the other direction") +
+           " (a chip, a damaged tooth, a tight place?)";
   };
   f.words = [](const DriveModel& model, const DriveShape& s, const DriveContext*) {
     return "short, once in every turn " + turn_in_words(model, s[kBumpOrder]);

@@ -10,8 +10,9 @@
 #include "trueflank/loop/drive/effects/parts_of_ranges.h"
 #include "trueflank/loop/drive/effects/registry.h"
 
-// What counts rows: rows that are read by turns (two transducers, two hands on a lever), and a
-// block of rows in the run (a coupling that slipped, a preload that was set aside for a while).
+// What counts rows: rows that are read by turns (two transducers, two hands on a lever), a block of
+// rows in the run (a coupling that slipped, a preload that was set aside for a while), and a
+// sawtooth over the rows (a controller that switches).
 namespace trueflank::loop::drive_effects {
 
 namespace {
@@ -226,11 +227,150 @@ DriveFamily block(bool reads) {
   return f;
 }
 
+enum SawOfRows : std::size_t {
+  kRowSawEvery,  ///< rows after which it jumps again
+  kRowSawFirst,  ///< the row before which it jumps, from 0 on, not whole
+  kRowSawOf,     ///< What
+  kRowSawFrom
+};
+/// As much above as below its middle, from nothing on, or back to nothing.
+enum FromOfSaw { kSawAboutMiddle, kSawFromNothing, kSawToNothing };
+
+/// 0 in the first row after a jump ... 1 in the last one before the next.
+double place_in_row_saw(double row, const DriveShape& s) {
+  constexpr double kRounding = 1e-9;
+  const double cycles = (row - s[kRowSawFirst]) / s[kRowSawEvery],
+               part = cycles - std::floor(cycles + kRounding);
+  return std::clamp(part * s[kRowSawEvery] / (s[kRowSawEvery] - 1.0), 0.0, 1.0);
+}
+
+std::vector<DriveShape> row_saw_shapes(const DriveContext& context, bool reads) {
+  constexpr double kShortest = 6.0, kFewestTimes = 2.5, kStep = 0.35, kMostPlaces = 20.0;
+  constexpr std::size_t kMostRowsOfSaw = 800;
+  std::vector<DriveShape> shapes;
+  if (!has_one_course(context) || context.table.points.size() > kMostRowsOfSaw) return shapes;
+  const double rows = 1.0 + context.table.points.back().row;
+  for (double times = kFewestTimes; times < rows / kShortest; times += kStep) {
+    const double every = rows / times, places = std::min(kMostPlaces, std::ceil(every));
+    for (double place = 0.0; place < places; place += 1.0)
+      for (const double what : kinds_of(reads))
+        shapes.push_back({every, place * every / places, what, double(kSawAboutMiddle)});
+  }
+  return shapes;
+}
+
+/// Line of the first row after a jump.
+int line_of_first_jump(const DriveContext& context, const DriveShape& s) {
+  const auto& points = context.table.points;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    if (std::floor((points[i].row - s[kRowSawFirst]) / s[kRowSawEvery] + 1e-9) >
+        std::floor((points[i - 1].row - s[kRowSawFirst]) / s[kRowSawEvery] + 1e-9))
+      return points[i].line;
+  return points.back().line;
+}
+
+std::string row_saw_told(const DriveContext& context, const DriveShape& s, double amount,
+                         const std::vector<Parameter>& figures) {
+  const bool reads = s[kRowSawOf] == double(kOutputReads) || s[kRowSawOf] == double(kOutputGain);
+  const double from = s[kRowSawFrom];
+  return subject_of(s[kRowSawOf]) + " in a sawtooth over the rows of the run: it " +
+         (amount > 0.0 ? "rises" : "falls") + " evenly by " +
+         with_interval(reads ? figures.back() : figures.front(), " N m") +
+         (is_beside_the_load(s[kRowSawOf]) ? " at the largest load, in proportion to it," : "") +
+         " and " + (amount > 0.0 ? "drops" : "jumps up") + ", anew every " +
+         with_interval(figures[1], " rows") + ", first before line " +
+         with_interval(figures[2], "") +
+         (from == double(kSawFromNothing) ? ", from nothing on"
+          : from == double(kSawToNothing) ? ", back to nothing"
+                                          : ", as much above as below its middle") +
+         same_sign(context, s[kRowSawOf]) +
+         " (a controller of the oil or the load that switches, something that fills and empties?)";
+}
+
+DriveFamily row_sawtooth(bool reads) {
+  DriveFamily f = reads ? reading_without_a_name() : without_a_name();
+  f.parameters = {"amount_nm"};
+  f.shape_names = {"every", "first", "what", "from"};
+  f.preference = 7;
+  f.stands_alone = true;
+  f.dearer = kDearerForms;
+  f.falls_in_steps = true;
+  f.shape_values = {{.continuous = true, .is_place = true, .reach = 0.1},
+                    {.continuous = true, .is_place = true, .reach = 0.3},
+                    {},
+                    {}};
+  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.whole_shapes = [reads](const DriveContext& context) { return row_saw_shapes(context, reads); };
+  f.kind = [](const DriveShape& s) { return static_cast<int>(s[kRowSawOf]); };
+  f.kin_shapes = [](const DriveShape& s) {
+    std::vector<DriveShape> kin{s, s, s};
+    kin[1][kRowSawFrom] = kSawFromNothing;
+    kin[2][kRowSawFrom] = kSawToNothing;
+    return kin;
+  };
+  f.all_shapes = [](const DriveContext& context, const DriveShape* about) {
+    std::vector<DriveShape> shapes;
+    if (about == nullptr) return shapes;
+    const double every = (*about)[kRowSawEvery], rows = 1.0 + context.table.points.back().row,
+                 far = 0.6 * every * every / rows;
+    std::vector<double> periods;
+    for (const double by : growing_steps(context, 0.02 * far, far)) periods.push_back(every + by);
+    for (double whole = std::ceil(every - far); whole <= every + far; whole += 1.0)
+      periods.push_back(whole);
+    // (about the middle of the run, where the period does not move it)
+    const double times = std::round((0.5 * rows - (*about)[kRowSawFirst]) / every);
+    for (const double period : periods) {
+      if (period < 3.0) continue;
+      for (const double by : growing_steps(context, 0.25, std::max(1.0, every / 12.0))) {
+        const double first = (*about)[kRowSawFirst] + times * (every - period) + by;
+        for (const double at : {first, std::round(first)}) {
+          shapes.push_back(*about);
+          shapes.back()[kRowSawEvery] = period;
+          shapes.back()[kRowSawFirst] = at - period * std::floor(at / period);
+        }
+      }
+    }
+    return shapes;
+  };
+  // (what counts rows jumps by whole numbers of them, where that does as well)
+  f.was_run = [](const DriveContext&, const DriveShape& s) {
+    const auto whole = [](double value) { return std::abs(value - std::round(value)) < 1e-9; };
+    return whole(s[kRowSawEvery]) && whole(s[kRowSawFirst]);
+  };
+  f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
+                  double* c) {
+    const double from = s[kRowSawFrom];
+    c[0] = (place_in_row_saw(p.row, s) - (from == double(kSawFromNothing) ? 0.0
+                                          : from == double(kSawToNothing) ? 1.0
+                                                                          : 0.5)) *
+           changed_nm(context, p, s[kRowSawOf]);
+  };
+  f.figures = [](const DriveContext& context, const DriveShape& s, double amount) {
+    std::vector<Parameter> figures{figure_of("amplitude_nm", std::abs(amount)),
+                                   figure_of("comes_again_after_rows", s[kRowSawEvery]),
+                                   figure_of("first_jump_line", line_of_first_jump(context, s))};
+    add_reading(context, s[kRowSawOf], amount, figures);
+    return figures;
+  };
+  f.told = row_saw_told;
+  f.words = [](const DriveModel&, const DriveShape&, const DriveContext*) {
+    return std::string("in a sawtooth over the rows of the run");
+  };
+  if (reads)
+    f.term_shapes = [](const DriveShape& s) {
+      return std::vector<DriveShape>{
+          {s[kRowSawOf] == double(kOutputGain) ? 1.0 : 0.0, 0.0, 0.0, 0.0, 1.0}};
+    };
+  return f;
+}
+
 }  // namespace
 
 DriveFamily unnamed_rows_by_turns() { return rows_by_turns(false); }
 DriveFamily unnamed_reading_by_turns() { return rows_by_turns(true); }
 DriveFamily unnamed_block() { return block(false); }
 DriveFamily unnamed_reading_block() { return block(true); }
+DriveFamily unnamed_row_sawtooth() { return row_sawtooth(false); }
+DriveFamily unnamed_reading_row_sawtooth() { return row_sawtooth(true); }
 
 }  // namespace trueflank::loop::drive_effects

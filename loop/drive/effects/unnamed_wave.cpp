@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "trueflank/base/number_text.h"
@@ -11,13 +12,15 @@
 
 // A wave whose size is not the same all over: in proportion to the load or the speed, with the
 // temperature, or growing over the run as what works loose does; one of a direction alone, or of a
-// part of the loads, speeds, temperatures or the run; one that turns over at a place; and a wave by
-// the clock, which the angle only imitates.
+// part of the loads, speeds, temperatures or the run; one that turns over at a place; one that is
+// largest at a speed; and a wave by the clock, which the angle only imitates.
 namespace trueflank::loop::drive_effects {
 
 double size_of_wave(const DriveContext& context, const BenchPoint& p, double how) {
   if (how == double(kWaveWithLoad)) return p.load_nm / context.table.most_load_nm;
   if (how == double(kWaveWithSpeed)) return p.speed_rpm / context.table.most_speed_rpm;
+  if (how == double(kWaveWithSpeedSquare))
+    return std::pow(p.speed_rpm / context.table.most_speed_rpm, 2);
   if (how == double(kWaveWithWarmth)) return context.share_of_range(p, 2.0);
   if (how == double(kWaveWithCold)) return 1.0 - context.share_of_range(p, 2.0);
   return how == double(kWaveGrows) ? p.taken : 1.0;
@@ -33,6 +36,15 @@ namespace {
 
 bool reads(const DriveShape& s) { return s[kWaveDirection] == kAsItReads; }
 bool is_of_part(const DriveShape& s) { return s.size() > kWaveSide; }
+/// Of one that is largest at a speed, after its phase: the speed [rpm], and by how much its
+/// logarithm is another where half is left.
+enum ResonantValue : std::size_t { kResonantSpeed = kWavePhase + 1, kResonantHalf };
+bool is_resonant(const DriveShape& s) { return s.size() == kResonantHalf + 1; }
+
+double at_resonance(const BenchPoint& p, const DriveShape& s) {
+  const double x = std::log(p.speed_rpm / s[kResonantSpeed]) / s[kResonantHalf];
+  return 1.0 / (1.0 + x * x);
+}
 
 /// 1 where a wave of a part is, 0 where it is not, -1 where it is turned over.
 double on_side_of_place(const DriveContext& context, const BenchPoint& p, const DriveShape& s) {
@@ -79,6 +91,12 @@ std::vector<Parameter> wave_figures(const DriveContext& context, const DriveShap
   if (reads(s))
     figures.push_back(figure_of("reads_more_nm", std::abs(amount) * context.model.ratio));
   if (is_of_part(s)) figures.push_back(figure_of_place(context, s));
+  if (s[kWaveHow] == double(kWaveWithSpeedSquare))
+    figures.push_back(figure_of("speed_exponent", 2.0));
+  if (is_resonant(s))
+    for (const auto& [key, by] : {std::pair("at_rpm", 0.0), std::pair("half_below_rpm", -1.0),
+                                  std::pair("half_above_rpm", 1.0)})
+      figures.push_back(figure_of(key, s[kResonantSpeed] * std::exp(by * s[kResonantHalf])));
   return figures;
 }
 
@@ -91,6 +109,8 @@ WaveWords words_of_size(const DriveShape& s) {
     return {", in proportion to the load", " at the largest load"};
   if (s[kWaveHow] == double(kWaveWithSpeed))
     return {", in proportion to the speed", " at the highest speed"};
+  if (s[kWaveHow] == double(kWaveWithSpeedSquare))
+    return {", that grows with the square of the speed", " at the highest speed"};
   if (s[kWaveHow] == double(kWaveWithWarmth))
     return {", that grows with the temperature from nothing at the lowest", " at the highest"};
   if (s[kWaveHow] == double(kWaveWithCold))
@@ -111,6 +131,13 @@ std::string part_in_words(const DriveShape& s, const Parameter& place) {
   const std::string at = place_of_wave(s, place);
   if (s[kWaveSide] == double(kWaveTurnsOver)) return ", that turns over at " + at;
   return std::string(", only ") + (s[kWaveSide] == double(kWaveAbove) ? "above " : "up to ") + at;
+}
+
+std::string resonance_in_words(const std::vector<Parameter>& figures) {
+  const std::size_t at = figures.size() - 3;
+  return ", largest at a speed of " + with_interval(figures[at], " rpm") + " and half of that at " +
+         with_interval(figures[at + 1], "") + " and " + with_interval(figures[at + 2], " rpm") +
+         " (a resonance?)";
 }
 
 std::string wave_told(const DriveContext& context, const DriveShape& s, double amount,
@@ -135,8 +162,10 @@ std::string wave_told(const DriveContext& context, const DriveShape& s, double a
              turns_over = is_of_part(s) && s[kWaveSide] == double(kWaveTurnsOver);
   return what + " " + wave_in_words(context.model, s[kWaveOrder]) +
          (one_direction ? direction_in_words(s[kWaveDirection]) : "") + words_of_size(s).follows +
-         (is_of_part(s) ? part_in_words(s, figures.back()) : "") + where +
-         (turns_over ? " above it, least there below" : "") + ": " + size + words_of_size(s).at +
+         (is_of_part(s) ? part_in_words(s, figures.back()) : "") +
+         (is_resonant(s) ? resonance_in_words(figures) : "") + where +
+         (turns_over ? " above it, least there below" : "") + ": " + size +
+         (is_resonant(s) ? " at that speed" : words_of_size(s).at) +
          (one_direction ? ", and nothing" + direction_in_words(s[kWaveDirection] == 1.0 ? 2.0 : 1.0)
                         : "") +
          (reads(s) ? kNoLoss : "");
@@ -176,7 +205,22 @@ std::vector<DriveShape> places_near(const DriveContext& context, const DriveShap
   return shapes;
 }
 
-DriveFamily wave_of_sizes(bool of_part) {
+/// Speeds and widths near by.
+std::vector<DriveShape> resonances_near(const DriveContext& context, const DriveShape& about) {
+  std::vector<DriveShape> shapes;
+  for (const double by : growing_steps(context, 0.02, 1.0))
+    for (const double wider : growing_steps(context, 0.02, 0.7)) {
+      shapes.push_back(about);
+      shapes.back()[kResonantSpeed] *= std::exp(by * about[kResonantHalf]);
+      shapes.back()[kResonantHalf] *= std::exp(wider);
+    }
+  return shapes;
+}
+
+enum class WaveKind { kOfSizes, kOfPart, kResonant };
+
+DriveFamily wave_of_sizes(WaveKind kind) {
+  const bool of_part = kind == WaveKind::kOfPart, resonant = kind == WaveKind::kResonant;
   DriveFamily f = without_a_name();
   f.parameters = {"amount_nm"};
   f.shape_names = {"order", "how", "direction", "phase"};
@@ -188,16 +232,20 @@ DriveFamily wave_of_sizes(bool of_part) {
   f.order = [](const DriveShape& s) {
     return s[kWaveHow] == double(kWaveByRows) ? 0.0 : s[kWaveOrder];
   };
-  f.all_shapes = [of_part](const DriveContext& context, const DriveShape* about) {
+  f.all_shapes = [of_part, resonant](const DriveContext& context, const DriveShape* about) {
     if (about == nullptr) return std::vector<DriveShape>{};
     std::vector<DriveShape> shapes = waves_near(context, *about);
     if (of_part)
       for (DriveShape& shape : places_near(context, *about)) shapes.push_back(std::move(shape));
+    if (resonant)
+      for (DriveShape& shape : resonances_near(context, *about)) shapes.push_back(std::move(shape));
     return shapes;
   };
-  f.evaluate = [of_part](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
-                         double* c) {
-    const double part = of_part ? on_side_of_place(context, p, s) : 1.0;
+  f.evaluate = [of_part, resonant](const DriveContext& context, const BenchPoint& p,
+                                   const DriveShape& s, double* c) {
+    const double part = of_part    ? on_side_of_place(context, p, s)
+                        : resonant ? at_resonance(p, s)
+                                   : 1.0;
     if (part == 0.0) {
       c[0] = 0.0;
       return;
@@ -225,13 +273,28 @@ DriveFamily wave_of_sizes(bool of_part) {
 }  // namespace
 
 DriveFamily unnamed_wave() {
-  DriveFamily f = wave_of_sizes(false);
+  DriveFamily f = wave_of_sizes(WaveKind::kOfSizes);
   f.is_wave_of_sizes = true;
   return f;
 }
 
+DriveFamily unnamed_resonant_wave() {
+  DriveFamily f = wave_of_sizes(WaveKind::kResonant);
+  f.shape_names.insert(f.shape_names.end(), {"at_rpm", "half_width"});
+  f.shape_values.push_back({.continuous = true, .limits = [](const DriveContext& context) {
+                              return std::pair(std::max(1e-6, context.table.least_speed_rpm),
+                                               context.table.most_speed_rpm);
+                            }});
+  f.shape_values.push_back(
+      {.continuous = true, .limits = [](const DriveContext&) { return std::pair(0.04, 1.2); }});
+  f.preference = 8;
+  f.dearer = kDearerForms;
+  f.is_resonant_wave = true;
+  return f;
+}
+
 DriveFamily unnamed_part_wave() {
-  DriveFamily f = wave_of_sizes(true);
+  DriveFamily f = wave_of_sizes(WaveKind::kOfPart);
   f.shape_names.insert(f.shape_names.end(), {"over", "place", "side"});
   f.shape_values.insert(f.shape_values.end(),
                         {{},
