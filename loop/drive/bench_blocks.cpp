@@ -5,7 +5,6 @@
 #include <map>
 #include <random>
 
-#include "trueflank/base/units.h"
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/drive/bench_table.h"
@@ -261,96 +260,6 @@ SmoothFit without_memory(const BenchTable& table, const SmoothFit& fit) {
   return cleaned;
 }
 
-/// What neighbouring values share, with what so many fitted figures make look opposite.
-double shared_beside_fit(const Eigen::VectorXd& left, double figures) {
-  const double product = left.head(left.size() - 1).dot(left.tail(left.size() - 1));
-  return product / std::max(left.squaredNorm(), 1e-300) +
-         figures / static_cast<double>(left.size());
-}
-/// What takes off so much of the squares, and all that neighbours share, is no error.
-constexpr double kMostLeftOfRun = 0.8, kMostAlikeInRun = 0.15;
-constexpr std::size_t kFewestRowsOfRun = 48, kMostRowsOfRun = 800;
-
-/// The same without what comes again after so many rows, in any course: neighbours share it.
-/// Errors that hang together still do beside such a course.
-SmoothFit without_rhythm(const BenchTable& table, const SmoothFit& fit) {
-  constexpr double kShortest = 6.0, kFewestTimes = 2.5, kStep = 0.2, kRowsOfAWave = 2.5;
-  constexpr int kMostWaves = 6;
-  const auto& points = table.points;
-  if (points.size() < kFewestRowsOfRun || points.size() > kMostRowsOfRun ||
-      points.front().file != points.back().file)
-    return fit;
-  const auto n = static_cast<Eigen::Index>(points.size());
-  Eigen::VectorXd value(n), best;
-  for (Eigen::Index i = 0; i < n; ++i)
-    value[i] =
-        fit.residual_nm[static_cast<std::size_t>(i)] / points[static_cast<std::size_t>(i)].sigma_nm;
-  if (shared_beside_fit(value, 0.0) < kMostAlikeInRun) return fit;
-  double least = kMostLeftOfRun * value.squaredNorm();
-  int waves_of_best = 0;
-  for (double times = kFewestTimes; times < static_cast<double>(n) / kShortest; times += kStep) {
-    const double every = static_cast<double>(n) / times;
-    const int waves = std::min(kMostWaves, static_cast<int>(every / kRowsOfAWave));
-    Eigen::MatrixXd x(n, 2 * waves);
-    for (Eigen::Index i = 0; i < n; ++i)
-      for (int k = 0; k < waves; ++k) {
-        const double phase = kTwoPi * (k + 1) * points[static_cast<std::size_t>(i)].row / every;
-        x(i, 2 * k) = std::cos(phase);
-        x(i, 2 * k + 1) = std::sin(phase);
-      }
-    const Eigen::VectorXd left = value - x * least_squares(x, value);
-    if (left.squaredNorm() >= least) continue;
-    least = left.squaredNorm();
-    best = left;
-    waves_of_best = waves;
-  }
-  if (best.size() == 0 || shared_beside_fit(best, 2.0 * waves_of_best) > kMostAlikeInRun)
-    return fit;
-  SmoothFit cleaned = fit;
-  for (Eigen::Index i = 0; i < n; ++i)
-    cleaned.residual_nm[static_cast<std::size_t>(i)] =
-        best[i] * points[static_cast<std::size_t>(i)].sigma_nm;
-  return cleaned;
-}
-
-/// The same without levels between which the run jumps, each new: neighbours share them, and they
-/// are no error. Errors that hang together jump so as well, but beside such levels they still do.
-SmoothFit without_levels(const BenchTable& table, const SmoothFit& fit) {
-  constexpr std::size_t kFewestChanges = 2, kMostChanges = 12;
-  const auto& points = table.points;
-  if (points.size() < kFewestRowsOfRun || points.front().file != points.back().file) return fit;
-  SmoothFit best = fit;
-  double least = kMostLeftOfRun;
-  // (a zero of the output reads the other way where it drives)
-  for (const bool reads : {false, true}) {
-    std::vector<double> column, value;
-    double before = 0.0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      column.push_back((reads && !points[i].forward ? -1.0 : 1.0));
-      value.push_back(fit.residual_nm[i] / points[i].sigma_nm);
-      before += value.back() * value.back();
-    }
-    const PartsOfRun parts(column, value, FirstLevel::kAny);
-    std::vector<std::size_t> cuts = parts.likeliest_cuts();
-    if (cuts.size() < kFewestChanges || cuts.size() > kMostChanges) continue;
-    cuts.insert(cuts.begin(), 0);
-    cuts.push_back(points.size());
-    for (std::size_t k = 1; k < cuts.size(); ++k) {
-      const double level = parts.level(cuts[k - 1], cuts[k]);
-      for (std::size_t i = cuts[k - 1]; i < cuts[k]; ++i) value[i] -= level * column[i];
-    }
-    const Eigen::VectorXd left =
-        Eigen::Map<const Eigen::VectorXd>(value.data(), static_cast<Eigen::Index>(value.size()));
-    if (left.squaredNorm() > least * before ||
-        shared_beside_fit(left, 2.0 * static_cast<double>(cuts.size())) > kMostAlikeInRun)
-      continue;
-    least = left.squaredNorm() / before;
-    for (std::size_t i = 0; i < value.size(); ++i)
-      best.residual_nm[i] = value[i] * points[i].sigma_nm;
-  }
-  return best;
-}
-
 }  // namespace
 
 void deal_hold_out_anew(BenchTable& table) {
@@ -374,8 +283,7 @@ void deal_hold_out_anew(BenchTable& table) {
 }
 
 void assign_blocks(BenchTable& table, const SmoothFit& whole_fit) {
-  const SmoothFit fit =
-      without_rhythm(table, without_levels(table, without_memory(table, whole_fit)));
+  const SmoothFit fit = without_memory(table, whole_fit);
   cut_into_set_points(table);
   const std::vector<int> set_point = set_points_of(table.points);
   bool log = false;

@@ -31,15 +31,6 @@ bool is_of_the_run(const DriveEffect& effect, double over) {
   return static_cast<bool>(family.shape_of_states) || (over == 2.0 && family.jumps_in_run);
 }
 
-/// Every change of what is there at times is a figure.
-int size_with_changes(const std::vector<DriveEffect>& effects) {
-  int size = size_of(effects);
-  for (const DriveEffect& e : effects)
-    if (e.family->shape_of_states || e.family->shape_of_levels)
-      size += static_cast<int>(e.shape.size()) - 1;
-  return size;
-}
-
 /// Load times speed, beside load, speed and temperature.
 constexpr double kOverPower = 3.0;
 

@@ -16,6 +16,7 @@ namespace {
 /// Of a set that holds what is there at times, by chance: what says when costs as much as chance
 /// takes off where every row may be either.
 double cost_of_changes(double rows, double changes) {
+  if (!(changes > 0.0)) return 0.0;
   const double often = std::clamp(changes / rows, 1.0 / rows, 0.5);
   return -2.0 * rows * (often * std::log(often) + (1.0 - often) * std::log(1.0 - often));
 }
@@ -85,6 +86,29 @@ void DriveSelection::tell_as_scattered_states(DriveOutcome& outcome) {
   exchange_as_sure(outcome, best, gain);
 }
 
+namespace {
+
+/// True of levels of which every second one is the same: what is there at times, and at times not.
+bool goes_to_and_fro(const std::vector<double>& levels) {
+  constexpr std::size_t kFewest = 4;
+  constexpr double kSame = 0.25;  // of how far they reach
+  if (levels.size() < kFewest) return false;
+  const auto [low, high] = std::minmax_element(levels.begin(), levels.end());
+  for (std::size_t k = 2; k < levels.size(); ++k)
+    if (std::abs(levels[k] - levels[k - 2]) > kSame * (*high - *low)) return false;
+  return true;
+}
+
+/// Where in the run what stands in a part of it, or jumps in its course, begins and ends.
+double changes_in_run(const std::vector<DriveEffect>& effects) {
+  double changes = 0.0;
+  for (const DriveEffect& e : effects)
+    changes += e.family->shape_of_spell ? 2.0 : e.family->jumps_in_run ? 1.0 : 0.0;
+  return changes;
+}
+
+}  // namespace
+
 void DriveSelection::tell_as_levels_of_the_run(DriveOutcome& outcome) {
   constexpr double kClearly = 30.0, kAsOne = 4.0, kMostLeft = 0.8;
   constexpr std::size_t kFewestLevels = 2, kMostLevels = 12;
@@ -119,7 +143,9 @@ void DriveSelection::tell_as_levels_of_the_run(DriveOutcome& outcome) {
         const DriveFit fit(here, value_, set.effects, FitRows::kTraining);
         left = value_ - fit.explained_nm() + fit.explained_nm(static_cast<int>(at));
       }
-      if (levels.changes.size() < kFewestLevels || levels.changes.size() > kMostLevels) continue;
+      if (levels.changes.size() < kFewestLevels || levels.changes.size() > kMostLevels ||
+          goes_to_and_fro(levels.levels))
+        continue;
       set.from.push_back(-1);
       if (!fits(set)) continue;
       const double changes = static_cast<double>(levels.changes.size());
@@ -139,7 +165,8 @@ void DriveSelection::tell_as_levels_of_the_run(DriveOutcome& outcome) {
   const bool fewer = best.effects.size() < outcome.effects.size();
   if (best.effects.empty() || (!fewer && best.square > kMostLeft * now.square)) return;
   // (errors that hang together jump between levels as well)
-  const double gain = now.figure(noise) - least -
+  const double gain = now.figure(noise) - least +
+                      cost_of_changes(outcome.rows, changes_in_run(outcome.effects)) -
                       (1.0 - 1.0 / shared) * std::max(0.0, now.square - best.square) / noise;
   if (gain < (fewer ? kAsOne : kClearly)) return;
   const DriveOutcome before = outcome;

@@ -118,12 +118,8 @@ void DriveSelection::tell_as_whole_forms(DriveOutcome& outcome) {
 }
 
 DriveSelection::OneForm DriveSelection::as_it_is(const DriveOutcome& outcome) const {
-  OneForm now{.effects = outcome.effects, .from = {}, .size = size_of(outcome.effects)};
-  for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
-    now.from.push_back(static_cast<int>(e));
-    if (outcome.effects[e].family->shape_of_states || outcome.effects[e].family->shape_of_levels)
-      now.size += static_cast<int>(outcome.effects[e].shape.size()) - 1;
-  }
+  OneForm now{.effects = outcome.effects, .from = {}, .size = size_with_changes(outcome.effects)};
+  for (std::size_t e = 0; e < outcome.effects.size(); ++e) now.from.push_back(static_cast<int>(e));
   const DriveContext here = context();
   now.square = DriveFit(here, value_, now.effects, FitRows::kTraining).residual_square();
   return now;
@@ -288,8 +284,12 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
     // (a name that only mends a piece goes with it where far fewer figures do as much)
     const bool fewer = best.size <= now.size && best.effects.size() < outcome.effects.size();
     const bool mends = drops_a_piece && (best.size + kFarFewer <= now.size || fewer);
+    // (one that leaves less than three names do, with far fewer figures)
+    const bool of_many = best.size + kFarFewer <= now.size && best.square <= now.square &&
+                         best.effects.size() + kFarFewer <= outcome.effects.size();
     const double as_one = fewer && (cancel || drops_a_piece) ? 0.0 : kAsOne;
-    if (gain < (drops_any && !drops_a_name ? as_one : mends ? kForBoth : kClearly)) continue;
+    if (gain < (drops_any && !drops_a_name ? as_one : mends || of_many ? kForBoth : kClearly))
+      continue;
     bool follow = true;
     for (std::size_t e = 0; e < best.effects.size() && follow; ++e)
       follow = !(e == form || (best.from[e] < 0 && !best.effects[e].family->named)) ||

@@ -81,7 +81,7 @@ TEST(FormsOfTheRunOnBenches, AWaveThatIsLargestAtASpeedSaysWhichAndHowWide) {
     DrawnBench bench = longer_rows(seed, false);
     bench.with_angle = true;
     const int order = bench.whole(1, 4);
-    const double size = bench.scatter_nm() * bench.between(8.0, 15.0),
+    const double size = bench.scatter_nm() * bench.between(10.0, 18.0),
                  phase = bench.between(0.0, 6.28), at = bench.between(300.0, 900.0),
                  half = bench.between(0.22, 0.4);
     closes_as(answers, seed, "order " + std::to_string(order) + " at " + std::to_string(at), bench,

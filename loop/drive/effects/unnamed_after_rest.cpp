@@ -51,6 +51,11 @@ std::string lines_of_rests(const DriveContext& context, const DriveShape& s) {
   return text;
 }
 
+/// What takes longer than the time to the next rest is a sawtooth, and no rest.
+double rows_it_takes(const DriveShape& s) {
+  return s[kRestPeriod] > 0.0 ? std::min(s[kRestRows], s[kRestPeriod]) : s[kRestRows];
+}
+
 }  // namespace
 
 double rows_since_rest(const BenchPoint& p, double period, double phase) {
@@ -118,7 +123,7 @@ DriveFamily unnamed_after_rest() {
   };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
                   double* c) {
-    const double part = rows_since_rest(p, s[kRestPeriod], s[kRestPhase]) / s[kRestRows];
+    const double part = rows_since_rest(p, s[kRestPeriod], s[kRestPhase]) / rows_it_takes(s);
     c[0] = part < 30.0 ? changed_nm(context, p, s[kRestOf]) * std::exp(-part) : 0.0;
   };
   f.all_shapes = [](const DriveContext& context, const DriveShape* about) {
@@ -131,7 +136,7 @@ DriveFamily unnamed_after_rest() {
   };
   f.figures = [](const DriveContext&, const DriveShape& s, double amount) {
     std::vector<Parameter> figures{figure_of("amplitude_nm", std::abs(amount)),
-                                   figure_of("dies_within_rows", s[kRestRows])};
+                                   figure_of("dies_within_rows", rows_it_takes(s))};
     if (s[kRestPeriod] > 0.0)
       figures.push_back(figure_of("comes_again_after_rows", s[kRestPeriod]));
     return figures;

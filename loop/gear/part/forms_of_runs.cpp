@@ -50,7 +50,7 @@ bool is_about_run(const Effect& form, const FormOnTeeth& found) {
 
 /// Swellings about the middle of a run, at a height or over the whole face.
 std::vector<Effect> dents_about(const FlankGeometry& geometry, const FormOnTeeth& found) {
-  constexpr int kHeights = 9;
+  constexpr int kHeightsOfRun = 9;
   std::vector<Effect> dents;
   const double face_mm = geometry.face_width_mm();
   for (const double off : {-0.5, 0.0, 0.5})
@@ -62,9 +62,9 @@ std::vector<Effect> dents_about(const FlankGeometry& geometry, const FormOnTeeth
                          {middle, half * found.count, height_mm, half_mm}});
       };
       add(0.0, 0.0);
-      for (int i = 0; i < kHeights; ++i)
+      for (int i = 0; i < kHeightsOfRun; ++i)
         for (const double share : {0.1, 0.2, 0.35})
-          add((i + 0.5) / kHeights * face_mm, share * face_mm);
+          add((i + 0.5) / kHeightsOfRun * face_mm, share * face_mm);
     }
   return dents;
 }

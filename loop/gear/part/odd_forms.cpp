@@ -83,9 +83,9 @@ struct MainCourse {
 };
 
 MainCourse main_course(const FlankField& field, const Eigen::VectorXd& start) {
-  constexpr int kSteps = 30;
+  constexpr int kStepsAround = 30;
   MainCourse main{start.normalized()};
-  for (int i = 0; i < kSteps; ++i) {
+  for (int i = 0; i < kStepsAround; ++i) {
     const Eigen::VectorXd next = field * (field.transpose() * main.over_flanks);
     if (!(next.norm() > 0.0)) return main;
     main.over_flanks = next.normalized();
