@@ -41,7 +41,8 @@ class Neighbours {
              const Eigen::VectorXd& left)
       : table_(table), ratio_(ratio), left_(left) {
     const auto& points = table.points;
-    visit_ = visits_of(points, set_points_of(points));
+    set_point_ = set_points_of(points);
+    visit_ = visits_of(points, set_point_);
     for (std::size_t i = 0; i < points.size(); ++i)
       size_.push_back(left[static_cast<Eigen::Index>(i)] / points[i].sigma_nm);
     std::vector<double> sizes;
@@ -91,7 +92,7 @@ class Neighbours {
   void record(const std::vector<double>& orders) {
     const auto& points = table_.points;
     add_ranked("the speed", values_of(points, &BenchPoint::speed_rpm));
-    add_ranked("the load", values_of(points, &BenchPoint::load_nm));
+    add_ranked("the load", loads_as_set());
     if (table_.has_temperature && table_.temperature_span_c > 3.0)
       add_ranked("the temperature", values_of(points, &BenchPoint::temperature_c));
     std::vector<double> before;
@@ -123,6 +124,37 @@ class Neighbours {
       }
       courses_.push_back(std::move(course));
     }
+  }
+
+  /// The loads, those of one level alike: what a driving torque misreads is in what is left as well,
+  /// and of rows of one level those near by would be those with the same error.
+  [[nodiscard]] std::vector<double> loads_as_set() const {
+    constexpr double kApart = 4.0;  // of what the loads of one set point scatter
+    const auto& points = table_.points;
+    std::map<int, std::vector<double>> loads;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      loads[set_point_[i]].push_back(points[i].load_nm);
+    double square = 0.0, degrees = 0.0;
+    for (const auto& [point, of_point] : loads) {
+      const double n = static_cast<double>(of_point.size()),
+                   mean = std::accumulate(of_point.begin(), of_point.end(), 0.0) / n;
+      for (const double load : of_point) square += (load - mean) * (load - mean);
+      degrees += n - 1.0;
+    }
+    std::vector<std::size_t> order(points.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return points[a].load_nm < points[b].load_nm;
+    });
+    const double apart = degrees > 0.0 ? kApart * std::sqrt(square / degrees) : 0.0;
+    std::vector<double> level(points.size());
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const double load = points[order[k]].load_nm;
+      level[order[k]] = k > 0 && load - points[order[k - 1]].load_nm <= apart
+                            ? level[order[k - 1]]
+                            : load;
+    }
+    return level;
   }
 
   /// Where few levels were run rows of one level are equally near.
@@ -299,7 +331,7 @@ class Neighbours {
   const BenchTable& table_;
   const double ratio_;
   const Eigen::VectorXd& left_;
-  std::vector<int> visit_;
+  std::vector<int> set_point_, visit_;
   std::vector<double> size_;  ///< of every row, in its noise's units
   std::vector<RecordedCourse> courses_;
 };

@@ -70,13 +70,11 @@ int size_of(const std::vector<DriveEffect>& effects) {
 }
 
 int size_with_changes(const std::vector<DriveEffect>& effects) {
-  constexpr std::size_t kPeriodOfRest = 1;
   int size = size_of(effects);
   for (const DriveEffect& e : effects) {
     if (e.family->shape_of_states || e.family->shape_of_levels)
       size += static_cast<int>(e.shape.size()) - 1;
     if (e.family->shape_of_spell) size += 2;
-    if (e.family->shape_of_rest && e.shape[kPeriodOfRest] > 0.0) size += 2;
   }
   return size;
 }

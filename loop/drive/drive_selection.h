@@ -18,8 +18,7 @@ namespace trueflank::loop {
 
 /// Figures that effects have together: coefficients, and the shapes that move.
 [[nodiscard]] int size_of(const std::vector<DriveEffect>& effects);
-/// The same with what a scan chose: where something is there and where not, after how many rows it
-/// comes again.
+/// The same with what a scan chose: where in the run or a turn something begins and ends.
 [[nodiscard]] int size_with_changes(const std::vector<DriveEffect>& effects);
 
 /// One outcome of the engine with its shapes refined on the training rows.

@@ -53,7 +53,7 @@ std::string lines_of_rests(const DriveContext& context, const DriveShape& s) {
 
 /// What takes longer than the time to the next rest is a sawtooth, and no rest.
 double rows_it_takes(const DriveShape& s) {
-  return s[kRestPeriod] > 0.0 ? std::min(s[kRestRows], s[kRestPeriod]) : s[kRestRows];
+  return s[kRestPeriod] > 0.0 ? std::min(s[kRestRows], 0.6 * s[kRestPeriod]) : s[kRestRows];
 }
 
 }  // namespace
@@ -105,6 +105,10 @@ DriveFamily unnamed_after_rest() {
     return shapes;
   };
   f.kind = [](const DriveShape& s) { return s[kRestPeriod] == 0.0 ? 1 : 0; };
+  f.is_odd = [](const DriveShape& s) {
+    constexpr double kMost = 0.5;
+    return s[kRestPeriod] > 0.0 && s[kRestRows] > kMost * s[kRestPeriod];
+  };
   f.kin_shapes = [](const DriveShape& s) {
     std::vector<DriveShape> kin{s};
     for (const double of : {double(kDrag), double(kFlanks)})
