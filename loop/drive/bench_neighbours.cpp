@@ -147,14 +147,18 @@ class Neighbours {
       return points[a].load_nm < points[b].load_nm;
     });
     const double apart = degrees > 0.0 ? kApart * std::sqrt(square / degrees) : 0.0;
+    constexpr double kMostOfRange = 0.5;  // beyond, the loads stand at no levels
     std::vector<double> level(points.size());
+    double inside = 0.0;  // of levels, together
     for (std::size_t k = 0; k < order.size(); ++k) {
-      const double load = points[order[k]].load_nm;
-      level[order[k]] = k > 0 && load - points[order[k - 1]].load_nm <= apart
-                            ? level[order[k - 1]]
-                            : load;
+      const double load = points[order[k]].load_nm,
+                   step = k > 0 ? load - points[order[k - 1]].load_nm : apart + 1.0;
+      level[order[k]] = step <= apart ? level[order[k - 1]] : load;
+      inside += step <= apart ? step : 0.0;
     }
-    return level;
+    const double range =
+        order.empty() ? 0.0 : points[order.back()].load_nm - points[order.front()].load_nm;
+    return inside < kMostOfRange * range ? level : values_of(points, &BenchPoint::load_nm);
   }
 
   /// Where few levels were run rows of one level are equally near.

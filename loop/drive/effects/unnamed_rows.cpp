@@ -245,7 +245,7 @@ double place_in_row_saw(double row, const DriveShape& s) {
 }
 
 std::vector<DriveShape> row_saw_shapes(const DriveContext& context, bool reads) {
-  constexpr double kShortest = 6.0, kFewestTimes = 2.5, kStep = 0.35, kMostPlaces = 20.0;
+  constexpr double kShortest = 8.0, kFewestTimes = 2.5, kStep = 0.35, kMostPlaces = 20.0;
   constexpr std::size_t kMostRowsOfSaw = 800;
   std::vector<DriveShape> shapes;
   if (!has_one_course(context) || context.table.points.size() > kMostRowsOfSaw) return shapes;
@@ -288,12 +288,13 @@ std::string row_saw_told(const DriveContext& context, const DriveShape& s, doubl
 }
 
 DriveFamily row_sawtooth(bool reads) {
+  constexpr double kOfAnyPeriod = 8.0;  // its period is no whole number
   DriveFamily f = reads ? reading_without_a_name() : without_a_name();
   f.parameters = {"amount_nm"};
   f.shape_names = {"every", "first", "what", "from"};
   f.preference = 7;
   f.stands_alone = true;
-  f.dearer = kDearerForms;
+  f.dearer = kDearerForms + kOfAnyPeriod;
   f.falls_in_steps = true;
   f.shape_values = {{.continuous = true, .is_place = true, .reach = 0.1},
                     {.continuous = true, .is_place = true, .reach = 0.3},
