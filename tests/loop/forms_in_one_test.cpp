@@ -55,6 +55,26 @@ TEST(FormsAcrossTraces, AHollowThatIsAlikeAtEveryHeightKeepsItsName) {
   }
 }
 
+TEST(FormsAcrossTraces, AHollowThatBeginsAtAHeightIsNoneThatGrows) {
+  for (unsigned seed = 1; seed <= survey_size(2U, 8U); ++seed) {
+    Draw draw = draw_of(seed);
+    const MadeGear gear = spur(draw.whole(19, 37));
+    const double um = draw.between(7.0, 14.0), at = draw.between(-0.3, 0.3),
+                 half = draw.between(0.25, 0.4), from = draw.between(-0.4, 0.4);
+    const bool upper = draw.whole(0, 1) == 1;
+    const auto made = grown([&](auto&, const FlankSpot& s, auto&) {
+      return (upper ? s.v > from : s.v < from) ? -um * bell_of(s.u - at, half) : 0.0;
+    });
+    InspectionOptions options = traced({2, 5, 8, 11, 14, 17}, draw.between(0.6, 1.1), seed);
+    options.helix = false;
+    options.profiles_at = {-0.85, -0.5, -0.15, 0.15, 0.5, 0.85};
+    const auto result = close(gear, inspection_of(gear, {made}, options));
+    expect_one_of_size(result, um, 0.1);
+    EXPECT_FALSE(has_name(result)) << list(result);
+    EXPECT_FALSE(tells(result, "evenly")) << list(result);
+  }
+}
+
 TEST(WavesOfBothFlanks, OppositeOnesAreOneWave) {
   for (unsigned seed = 1; seed <= survey_size(2U, 6U); ++seed) {
     Draw draw = draw_of(seed);

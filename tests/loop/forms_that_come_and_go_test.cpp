@@ -229,6 +229,76 @@ TEST(SlipsOfTheDrive, RiseOverSomeTeethAndStay) {
   }
 }
 
+TEST(SlitsOfARing, SpringApartAndDieAwayToBothSides) {
+  for (unsigned seed = 1; seed <= survey_size(3U, 10U); ++seed) {
+    Draw draw = come_and_go_draw(seed);
+    const MadeGear gear = spur(draw.whole(36, 64));
+    const int before = draw.whole(2, gear.teeth - 2);
+    const double um = draw.between(4.0, 7.0), sign = draw.sign(), within = draw.between(1.8, 4.0);
+    const auto sprung = grown([&](auto&, const FlankSpot& s, auto&) {
+      const double off = std::remainder(s.tooth - before - 0.5, gear.teeth);
+      return s.side * sign * um * std::copysign(std::exp(-(std::abs(off) - 0.5) / within), off);
+    });
+    expect_one_nameless(index_of_made(gear, sprung, draw.between(0.25, 0.4), seed), um, 0.15,
+                        "between tooth " + std::to_string(before) + " and tooth " +
+                            std::to_string(before + 1) + ", the teeth stand " +
+                            (sign > 0.0 ? "apart" : "closer"));
+  }
+}
+
+TEST(ArchesOfAnIndex, GoOnceAroundAndClose) {
+  for (unsigned seed = 1; seed <= survey_size(3U, 10U); ++seed) {
+    Draw draw = come_and_go_draw(seed);
+    const MadeGear gear = spur(draw.whole(40, 70));
+    const double um = draw.between(3.0, 6.0), sign = draw.sign();
+    const int first = draw.whole(1, gear.teeth);
+    const auto drifted = grown([&](auto&, const FlankSpot& s, auto&) {
+      const double share = double((s.tooth - first + gear.teeth) % gear.teeth) / gear.teeth;
+      return s.side * sign * um * 4.0 * share * (1.0 - share);
+    });
+    const auto result = index_of_made(gear, drifted, draw.between(0.2, 0.3), seed);
+    expect_one_nameless(result, um, 0.1, "once around in one arch");
+    EXPECT_TRUE(tells(
+        result, sign > 0.0 ? "the teeth stand counter-clockwise" : "the teeth stand clockwise"))
+        << list(result);
+  }
+}
+
+TEST(BurstsOfADrive, AreNoKnockAtOneSide) {
+  for (unsigned seed = 1; seed <= survey_size(3U, 10U); ++seed) {
+    Draw draw = come_and_go_draw(seed);
+    const MadeGear gear = spur(draw.whole(50, 70));
+    const double um = draw.between(3.0, 6.0), half = draw.between(5.0, 8.0);
+    const int about = draw.whole(1, gear.teeth), waves = draw.whole(8, 12);
+    const auto rattled = grown([&](auto&, const FlankSpot& s, auto&) {
+      const double off = std::remainder(s.tooth - about, gear.teeth);
+      return s.side * um * std::cos(2.0 * kPiOfForms * waves * (s.tooth - 1) / gear.teeth) *
+             bell_of(off, half);
+    });
+    expect_one_nameless(index_of_made(gear, rattled, draw.between(0.25, 0.4), seed), um, 0.2,
+                        " in a burst, ");
+  }
+}
+
+TEST(FormsThatGrowAnew, AreOneFormFromNothing) {
+  for (unsigned seed = 1; seed <= survey_size(2U, 8U); ++seed) {
+    Draw draw = come_and_go_draw(seed);
+    const int every = draw.whole(6, 10);
+    const MadeGear gear = spur(every * draw.whole(3, 5));
+    const double um = draw.sign() * draw.between(5.0, 10.0);
+    const int first = draw.whole(1, every);
+    const auto worn = grown([&](auto&, const FlankSpot& s, auto&) {
+      const double u = 0.5 * (1.0 + s.u);
+      return um * ((s.tooth - first + every) % every) / (every - 1.0) * u * u;
+    });
+    std::vector<int> teeth;
+    for (int tooth = 1; tooth <= gear.teeth; ++tooth) teeth.push_back(tooth);
+    expect_one_nameless(
+        traced_with(gear, worn, Traced::kProfilesAlone, teeth, draw.between(0.5, 0.8), seed),
+        std::abs(um), 0.15, "from tooth to tooth, and anew every " + std::to_string(every));
+  }
+}
+
 TEST(BurstsOfChatter, AreWavesAboutAPlace) {
   for (unsigned seed = 1; seed <= survey_size(2U, 6U); ++seed) {
     Draw draw = come_and_go_draw(seed);

@@ -73,6 +73,8 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_field(),
         unnamed_cut_order(),
         unnamed_slip(),
+        unnamed_slit(),
+        unnamed_arch_around(),
         unnamed_changing_wave(),
         unnamed_plane_wave(),
         unnamed_plane_saw(),

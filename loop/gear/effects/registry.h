@@ -105,6 +105,8 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_field();
 [[nodiscard]] EffectFamily unnamed_cut_order();
 [[nodiscard]] EffectFamily unnamed_slip();
+[[nodiscard]] EffectFamily unnamed_slit();
+[[nodiscard]] EffectFamily unnamed_arch_around();
 /// True where steps of so many teeth come to every tooth before they come around.
 [[nodiscard]] bool can_be_cut_in_steps(int teeth, int step);
 [[nodiscard]] EffectFamily unnamed_changing_wave();

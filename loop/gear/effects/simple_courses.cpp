@@ -7,6 +7,7 @@
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
 #include "trueflank/loop/gear/effects/along_flank.h"
+#include "trueflank/loop/gear/effects/columns.h"
 
 namespace trueflank::loop::gear_effects {
 namespace {
@@ -255,7 +256,17 @@ AroundCourse AroundCourse::comb(const FlankGeometry& g, int every, int first) {
   return {kComb, deg_from_rad(g.centre_rad(1)) + (first - 1) * pitch_deg, 0.5 * every * pitch_deg};
 }
 
+AroundCourse AroundCourse::saw(const FlankGeometry& g, int every, int first) {
+  AroundCourse course = comb(g, every, first);
+  course.kind = kSaw;
+  return course;
+}
+
 double AroundCourse::value(const FlankGeometry& g, int tooth) const {
+  if (kind == kSaw) {
+    const auto [every, first] = teeth_of_comb(g);
+    return static_cast<double>(teeth_since(g, tooth, first) % every) / std::max(1, every - 1);
+  }
   if (kind == kComb) {
     const auto [every, first] = teeth_of_comb(g);
     return (tooth - first) % every == 0 ? 1.0 : 0.0;
@@ -282,6 +293,7 @@ double AroundCourse::value(const FlankGeometry& g, int tooth) const {
       return 0.5 * (1.0 + std::cos(kPi * off / half));
     case kEvery:
     case kComb:
+    case kSaw:
       break;
   }
   return 1.0;
@@ -292,6 +304,11 @@ std::vector<AroundCourse> AroundCourse::beside(const FlankGeometry& g) const {
   constexpr double kNarrowest_deg = 15.0, kWidest_deg = 100.0;
   const double pitch_deg = 360.0 / g.teeth();
   std::vector<AroundCourse> courses;
+  if (kind == kSaw) {
+    const auto [every, first] = teeth_of_comb(g);
+    for (const int off : {-1, 1}) courses.push_back(saw(g, every, first + off));
+    return courses;
+  }
   const auto add = [&](const AroundCourse& course) {
     if (course.kind == kBell && (course.half_deg < kNarrowest_deg || course.half_deg > kWidest_deg))
       return;
@@ -373,12 +390,19 @@ std::string AroundCourse::words(const FlankGeometry& g) const {
       const auto [every, first] = teeth_of_comb(g);
       return printed("on one tooth in %d, from tooth %d on", every, first);
     }
+    case kSaw: {
+      const auto [every, first] = teeth_of_comb(g);
+      const int from = (first - 1 + g.teeth()) % g.teeth() + 1;
+      return printed("from tooth %d on more and more from tooth to tooth, and anew every %d teeth",
+                     from, every);
+    }
   }
   return "";
 }
 
 std::vector<std::string> AroundCourse::kind_words() {
-  return {"half", "bell", "sector", "ramp", "wave", "every", "comb", "fade", "comes_and_goes"};
+  return {"half",  "bell", "sector", "ramp",           "wave",
+          "every", "comb", "fade",   "comes_and_goes", "saw"};
 }
 
 std::vector<AroundCourse> courses_around(const FlankGeometry& g) {

@@ -53,18 +53,21 @@ struct AroundCourse {
   /// A cosine on one half and nothing on the other; a bell; some teeth and no others; from nothing
   /// at a tooth evenly to all before it comes around; waves; the same on every tooth; one tooth in
   /// so many, counted from the first one of the gear on; from all at a tooth evenly to nothing
-  /// before it comes around; in a wave between nothing and all.
-  enum Kind { kHalf, kBell, kSector, kRamp, kWave, kEvery, kComb, kFade, kComesAndGoes };
+  /// before it comes around; in a wave between nothing and all; from nothing at a tooth evenly to
+  /// all over so many, and anew.
+  enum Kind { kHalf, kBell, kSector, kRamp, kWave, kEvery, kComb, kFade, kComesAndGoes, kSaw };
   static constexpr std::size_t kValues = 3;
 
   Kind kind = kHalf;
-  double towards_deg = 0.0;  ///< where it is most, or begins (kRamp, kFade, kComb)
-  double half_deg = 0.0;     ///< half its width (kBell, kSector) or period (the waves, kComb)
+  double towards_deg = 0.0;  ///< where it is most, or begins (kRamp, kFade, kComb, kSaw)
+  double half_deg = 0.0;     ///< half its width (kBell, kSector) or period (the waves, kComb, kSaw)
 
   /// One tooth in so many, from one on.
   [[nodiscard]] static AroundCourse comb(const FlankGeometry& geometry, int every, int first);
+  /// From nothing at one tooth to all over so many.
+  [[nodiscard]] static AroundCourse saw(const FlankGeometry& geometry, int every, int first);
 
-  /// Of kComb: every how many teeth, and the first.
+  /// Of kComb and kSaw: every how many teeth, and the first.
   [[nodiscard]] std::pair<int, int> teeth_of_comb(const FlankGeometry& geometry) const;
   [[nodiscard]] static AroundCourse at(const EffectShape& shape, std::size_t first) {
     return {static_cast<Kind>(static_cast<int>(shape[first])), shape[first + 1], shape[first + 2]};
@@ -78,7 +81,9 @@ struct AroundCourse {
            (kind == kBell && half_deg > kWide_deg);
   }
   [[nodiscard]] int values_sought() const {
-    return kind == kEvery ? 0 : kind == kBell || kind == kSector || kind == kComb ? 2 : 1;
+    return kind == kEvery || kind == kSaw                      ? 0
+           : kind == kBell || kind == kSector || kind == kComb ? 2
+                                                               : 1;
   }
   [[nodiscard]] std::vector<AroundCourse> beside(const FlankGeometry& geometry) const;
   /// "on the teeth towards 30 deg, ... "

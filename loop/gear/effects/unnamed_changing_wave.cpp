@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Waves from tooth to tooth whose size changes: they grow or fade once around, or ring and die
-// away.
+// Waves from tooth to tooth whose size changes: they grow or fade once around, ring and die away,
+// or come in a burst.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -15,10 +15,10 @@
 namespace trueflank::loop::gear_effects {
 namespace {
 
-/// Shape values: periods a turn; where it begins; how it goes on; within how many teeth it dies
-/// away; opposite on the flanks.
+/// Shape values: periods a turn; where it begins (of a burst: its middle); how it goes on; within
+/// how many teeth it dies away; opposite on the flanks.
 enum ChangingWave : std::size_t { kPeriods, kFirstTooth, kCourse, kWithin, kOppositeFlanks };
-constexpr double kGrows = 0.0, kFades = 1.0, kDies = 2.0;
+constexpr double kGrows = 0.0, kFades = 1.0, kDies = 2.0, kBurst = 3.0;
 
 }  // namespace
 
@@ -27,11 +27,13 @@ EffectFamily unnamed_changing_wave() {
                                                        "within_teeth", "opposite_flanks"});
   f.columns = [](const EffectShape&) { return 2; };
   set_columns(f, {[](const FlankGeometry& g, int tooth, const EffectShape& shape, double* factors) {
-                    const double since = teeth_since(g, tooth, shape[kFirstTooth]), z = g.teeth(),
-                                 angle = kTwoPi * shape[kPeriods] * since / z;
-                    const double course = shape[kCourse];
+                    const double z = g.teeth(), course = shape[kCourse];
+                    double since = teeth_since(g, tooth, shape[kFirstTooth]);
+                    if (course == kBurst && since > 0.5 * z) since -= z;
+                    const double angle = kTwoPi * shape[kPeriods] * since / z;
                     const double size = course == kGrows   ? since / (z - 1.0)
                                         : course == kFades ? 1.0 - since / (z - 1.0)
+                                        : course == kBurst ? bell(since, shape[kWithin])
                                                            : std::exp(-since / shape[kWithin]);
                     factors[0] = size * std::cos(angle);
                     factors[1] = size * std::sin(angle);
@@ -47,29 +49,34 @@ EffectFamily unnamed_changing_wave() {
     };
     for (const double off : {-2.0, -1.0, 1.0, 2.0})
       add(kFirstTooth, std::fmod(shape[kFirstTooth] - 1.0 + off + g.teeth(), g.teeth()) + 1.0);
-    if (shape[kCourse] != kDies) return shapes;
+    if (shape[kCourse] != kDies && shape[kCourse] != kBurst) return shapes;
     for (const double off : {-0.5, -0.2, -0.07, 0.07, 0.2, 0.5})
       if (shape[kPeriods] + off > 1.0) add(kPeriods, shape[kPeriods] + off);
-    for (const double times : {0.7, 0.87, 1.15, 1.43})
+    for (const double times : {0.7, 0.87, 0.95, 1.05, 1.15, 1.43})
       add(kWithin, std::clamp(times * shape[kWithin], 2.0, 1.0 * g.teeth()));
     return shapes;
   };
-  f.values_sought = [](const EffectShape& shape) { return shape[kCourse] == kDies ? 2 : 0; };
+  f.values_sought = [](const EffectShape& shape) {
+    return shape[kCourse] == kDies || shape[kCourse] == kBurst ? 2 : 0;
+  };
   f.term_keys = {number("periods_per_turn"),
                  {"first_tooth"},
-                 {"course", TermKey::Kind::kWord, {"grows", "fades", "dies_away"}},
+                 {"course", TermKey::Kind::kWord, {"grows", "fades", "dies_away", "burst"}},
                  number("within_teeth"),
                  {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}}};
   f.words = [](const ToldForm& told) {
     const EffectShape& shape = told.shape;
     const double course = shape[kCourse];
-    return printed("from tooth %.0f on", shape[kFirstTooth]) +
-           (course == kDies ? "" : ", once around,") + " the teeth stand " +
+    return (course == kBurst ? printed("about tooth %.0f", shape[kFirstTooth])
+                             : printed("from tooth %.0f on", shape[kFirstTooth])) +
+           (course == kDies || course == kBurst ? "" : ", once around,") + " the teeth stand " +
            (shape[kOppositeFlanks] != 0.0 ? "ahead and behind" : "high and low") +
            printed(" in waves of %.3g a turn", shape[kPeriods]) +
-           (course == kGrows ? " that grow evenly from nothing"
-            : course == kFades
-                ? " that fade evenly to nothing"
+           (course == kGrows   ? " that grow evenly from nothing"
+            : course == kFades ? " that fade evenly to nothing"
+            : course == kBurst
+                ? printed(" in a burst, %.2g teeth to either side", shape[kWithin]) +
+                      ", as where a drive rattles for a while"
                 : printed(" that die away, to a third within %.2g teeth", shape[kWithin]) +
                       ", as where something rings after a knock");
   };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the order shows in which teeth were cut: a drift from cut to cut where they were not cut one
-// beside the other, and what slips over some teeth and stays so to the last one.
+// beside the other; what slips over some teeth and stays so to the last one; teeth that spring
+// apart where a blank was slit; and an arch from the first tooth to the last.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -168,6 +169,94 @@ EffectFamily unnamed_slip() {
                 : std::string(sign > 0 ? ", towards more material" : ", towards less material")) +
            printed(", and stays so up to tooth %d", until) +
            ", as where a belt slips or something gives way while teeth are cut";
+  };
+  return f;
+}
+
+/// 1 on the tooth behind a gap and minus 1 on the one before it, dying away on both sides.
+EffectFamily unnamed_slit() {
+  constexpr std::size_t kWithinTeeth = 1, kSides = 2;
+  EffectFamily f = described("unnamed_slit", {"after_tooth", "within_teeth", "opposite_flanks"});
+  f.is_drift = true;
+  set_columns(f, {[](const FlankGeometry& g, int tooth, const EffectShape& shape, double* factor) {
+                    const int since = teeth_since(g, tooth, shape[0] + 1.0), z = g.teeth();
+                    // (a tooth right across the gear is pushed from both sides)
+                    const double behind = std::exp(-since / shape[kWithinTeeth]),
+                                 before = std::exp(-(z - 1 - since) / shape[kWithinTeeth]);
+                    factor[0] = behind - before;
+                  },
+                  [](const FlankGeometry&, const Place& p, const EffectShape& shape) {
+                    return shape[kSides] != 0.0 ? static_cast<double>(p.side) : 1.0;
+                  }});
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    constexpr double kShortest = 0.6, kLongest = 0.2;  // teeth; of all teeth
+    std::vector<EffectShape> shapes;
+    for (const double off : {-1.0, 1.0}) {
+      shapes.push_back(shape);
+      shapes.back()[0] = std::fmod(shape[0] - 1.0 + off + g.teeth(), g.teeth()) + 1.0;
+    }
+    for (const double times : {0.7, 0.87, 0.95, 1.05, 1.15, 1.43}) {
+      const double within = times * shape[kWithinTeeth];
+      if (!(within >= kShortest && within <= kLongest * g.teeth())) continue;
+      shapes.push_back(shape);
+      shapes.back()[kWithinTeeth] = within;
+    }
+    return shapes;
+  };
+  f.values_sought = [](const EffectShape&) { return 1; };
+  f.term_keys = {{"after_tooth"},
+                 number("within_teeth"),
+                 {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}}};
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const int z = told.geometry.teeth(), before = static_cast<int>(shape[0]),
+              behind = before % z + 1, sign = told.sign();
+    const std::string places =
+        printed("between tooth %d", before) + printed(" and tooth %d, ", behind);
+    const std::string dies =
+        printed(", dying away to both sides, to a third within %.2g teeth", shape[kWithinTeeth]);
+    if (shape[kSides] != 0.0)
+      return places + "the teeth stand " +
+             (sign > 0   ? "apart, "
+              : sign < 0 ? "closer, "
+                         : "apart or closer, ") +
+             "to opposite sides by the same amount" + dies +
+             ", as where a ring springs at a slit and stress is freed";
+    return places + "the height of the flanks jumps" +
+           (sign > 0   ? " up, from too little to too much material"
+            : sign < 0 ? " down, from too much to too little material"
+                       : "") +
+           dies;
+  };
+  return f;
+}
+
+/// From nothing at a tooth in one parabola once around to nothing: 1 half a turn on.
+EffectFamily unnamed_arch_around() {
+  constexpr std::size_t kSides = 1;
+  EffectFamily f = described("unnamed_arch_around", {"first_tooth", "opposite_flanks"});
+  f.is_drift = true;
+  set_columns(f, {[](const FlankGeometry& g, int tooth, const EffectShape& shape, double* factor) {
+                    const double share =
+                        static_cast<double>(teeth_since(g, tooth, shape[0])) / g.teeth();
+                    factor[0] = 4.0 * share * (1.0 - share);
+                  },
+                  [](const FlankGeometry&, const Place& p, const EffectShape& shape) {
+                    return shape[kSides] != 0.0 ? static_cast<double>(p.side) : 1.0;
+                  }});
+  f.term_keys = {{"first_tooth"}, {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}}};
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const int z = told.geometry.teeth(), first = static_cast<int>(shape[0]), sign = told.sign();
+    const double most = std::fmod(first - 1.0 + 0.5 * z, z) + 1.0;
+    const bool aside = shape[kSides] != 0.0;
+    return printed("from tooth %d on, once around in one arch, ", first) +
+           (aside ? "the teeth stand " : "the flanks stand ") +
+           (sign == 0 ? (aside ? "aside" : "high or low")
+            : aside   ? turned(sign)
+                      : std::string(sign > 0 ? "out" : "back")) +
+           printed(", most at tooth %.3g, and are back where they began", most) +
+           ", as where a machine drifts and spreads what does not close evenly over all teeth";
   };
   return f;
 }

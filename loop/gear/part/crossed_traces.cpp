@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Forms along traces that grow from trace to trace of a flank: profiles at several heights, leads
-// at several diameters, and that come and go. What they have in the mean was told as a form, or a
-// name, alike all over.
+// Forms along traces that grow, or begin, from trace to trace of a flank: profiles at several
+// heights, leads at several diameters, and that come and go. What they have in the mean was told as
+// a form, or a name, alike all over.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -37,16 +39,47 @@ std::array<bool, 2> are_traced_apart(const PartModel& model) {
   return {most[0] - least[0] > kApart, most[1] - least[1] > kApart};
 }
 
-/// Courses over the profile (0) or the face (1), of which there is nothing at one end of the other
-/// direction and evenly more towards the other.
-std::vector<Effect> growing_courses(const FlankGeometry& geometry, int along, FlankChoice flank) {
+/// Half way between neighbouring heights of profiles (0), or diameters of leads (1), as places
+/// there: some, evenly among them.
+std::vector<double> between_traces(const PartModel& model, int along) {
+  constexpr std::size_t kMost = 8;
+  constexpr double kSame = 0.05;  // of half the way from end to end
+  const FlankGeometry& geometry = model.geometry;
   const auto other = static_cast<double>(1 - along);
+  std::set<double> shares;
+  for (const Patches::Patch& patch : model.patches.patches) {
+    if (patch.kind != (along == 0 ? ObservationKind::kProfile : ObservationKind::kHelix)) continue;
+    const Place& place = patch.places.front().place;
+    const double end = gear_effects::end_mm(geometry, other, -1.0),
+                 at = along == 0 ? place.z_mm : place.roll_mm;
+    const double share = (at - end) / gear_effects::range_mm(geometry, other);
+    const auto next = shares.lower_bound(share - kSame);
+    if (next == shares.end() || *next > share + kSame) shares.insert(share);
+  }
+  std::vector<double> places;
+  for (auto it = shares.begin(); !shares.empty() && std::next(it) != shares.end(); ++it)
+    places.push_back(gear_effects::place_at(geometry, other, 0.5 * (*it + *std::next(it))));
+  std::vector<double> some;
+  for (std::size_t k = 0; k < std::min(kMost, places.size()); ++k)
+    some.push_back(places[k * places.size() / std::min(kMost, places.size())]);
+  return some;
+}
+
+/// Courses over the profile (0) or the face (1), of which there is nothing at one end of the other
+/// direction and evenly more towards the other, or all from one of these places on.
+std::vector<Effect> growing_courses(const FlankGeometry& geometry, int along, FlankChoice flank,
+                                    const std::vector<double>& places) {
+  const auto other = static_cast<double>(1 - along);
+  std::vector<FlankCourse> growths;
+  for (const double towards : {-1.0, 1.0}) {
+    growths.push_back({FlankCourse::kKink,
+                       gear_effects::place_at(geometry, other, towards > 0.0 ? 0.0 : 1.0),
+                       towards});
+    for (const double place : places) growths.push_back({FlankCourse::kStep, place, towards});
+  }
   std::vector<Effect> forms;
   for (const FlankCourse& course : gear_effects::courses_over(geometry, along))
-    for (const double towards : {-1.0, 1.0}) {
-      const FlankCourse growth{FlankCourse::kKink,
-                               gear_effects::place_at(geometry, other, towards > 0.0 ? 0.0 : 1.0),
-                               towards};
+    for (const FlankCourse& growth : growths) {
       EffectShape shape(2 * FlankCourse::kValues + 1);
       course.put_in(shape, along == 0 ? 0 : FlankCourse::kValues);
       growth.put_in(shape, along == 0 ? FlankCourse::kValues : 0);
@@ -124,8 +157,9 @@ std::vector<Effect> with_form_growing_across(const PartModel& model,
     if (with_orders.size() > all.size()) sets.push_back(with_orders);
     if (all.size() > 1)
       for (const std::size_t e : all) sets.push_back({e});
+    const std::vector<double> places = between_traces(model, along);
     for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
-      const std::vector<Effect> forms = growing_courses(model.geometry, along, flank);
+      const std::vector<Effect> forms = growing_courses(model.geometry, along, flank, places);
       for (const std::vector<std::size_t>& set : sets)
         best.ask(model, one_form_for(model, set, forms, {}, kMoreValues), set);
     }

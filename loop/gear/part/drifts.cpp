@@ -11,6 +11,7 @@
 
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/drift_of_traces.h"
+#include "trueflank/loop/gear/effects/simple_courses.h"
 #include "trueflank/loop/gear/local/drifts_of_traces.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/one_form.h"
@@ -326,6 +327,51 @@ bool tell_from_nothing(PartModel& model) {
       put_in_place_of(model, {std::min(e, level), std::max(e, level)}, best);
       return true;
     }
+  }
+  return false;
+}
+
+bool tell_as_form_that_grows_anew(PartModel& model) {
+  using gear_effects::AroundCourse;
+  using gear_effects::FlankCourse;
+  constexpr std::size_t kCourse = 2, kOpposite = 4;  // of a saw
+  const EffectFamily* const saws = find_family("unnamed_saw");
+  const double z = model.geometry.teeth();
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    const Effect saw = model.effects[e];
+    if (saw.family != saws || (saw.shape[kCourse] == 0.0) == (saw.shape[kCourse + 1] == 0.0))
+      continue;
+    const int face = saw.shape[kCourse] == 0.0 ? 1 : 0;
+    std::vector<std::size_t> all, names;
+    for (std::size_t k = first_told_here(model); k < model.effects.size(); ++k) {
+      const Effect& other = model.effects[k];
+      const bool alike = other.family == saws && other.shape[0] == saw.shape[0] &&
+                         (other.shape[kCourse] == 0.0 ? 1 : 0) == face &&
+                         other.shape[kCourse + (face == 0 ? 1 : 0)] == 0.0;
+      const bool along = runs_of(model.geometry, other, Flanks::kOfEither) ==
+                         (face == 0 ? Runs::kOverProfile : Runs::kOverFace);
+      // (what the saws leave of it, as often around the gear)
+      const NeedsToBeSeen needs = other.needs();
+      const bool wave = !other.family->named && other.order() > 0.0 &&
+                        (face == 0 ? needs.along_profile : needs.along_face) &&
+                        std::remainder(other.order() * saw.shape[0], z) == 0.0;
+      if (!(alike || along || wave) || other.flank != saw.flank) continue;
+      all.push_back(k);
+      if (other.family->named) names.push_back(k);
+    }
+    if (all.size() < 2) continue;
+    const AroundCourse around = AroundCourse::saw(model.geometry, static_cast<int>(saw.shape[0]),
+                                                  static_cast<int>(saw.shape[1]));
+    std::vector<Effect> forms;
+    for (const FlankCourse& course : gear_effects::courses_over(model.geometry, face)) {
+      EffectShape shape(2 * FlankCourse::kValues + 1 + AroundCourse::kValues, 0.0);
+      course.put_in(shape, face == 0 ? 0 : FlankCourse::kValues);
+      shape[2 * FlankCourse::kValues] = saw.shape[kOpposite];
+      around.put_in(shape, 2 * FlankCourse::kValues + 1);
+      forms.push_back({find_family("unnamed_crossed_around"), saw.flank, std::move(shape)});
+    }
+    for (const std::vector<std::size_t>& these : with_and_without(all, names))
+      if (these.size() > 1 && put_one_form_for(model, these, forms)) return true;
   }
   return false;
 }

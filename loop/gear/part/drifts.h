@@ -17,6 +17,10 @@ namespace trueflank::loop {
 /// odd teeth where it begins anew, have taken it up: together they are tried against it.
 [[nodiscard]] bool tell_as_drift(PartModel& model);
 
+/// A drift of a lean or a bow that begins anew every so many teeth, beside its mean: a form along
+/// the flanks that grows evenly from nothing, and anew.
+[[nodiscard]] bool tell_as_form_that_grows_anew(PartModel& model);
+
 /// What differs from tooth to tooth by turns or drifts, about a mean that all teeth have by another
 /// form or a name: the same from nothing, where that leaves as little. True where one was found.
 [[nodiscard]] bool tell_from_nothing(PartModel& model);

@@ -22,6 +22,7 @@
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/runs_along.h"
+#include "trueflank/loop/gear/part/taken_up.h"
 #include "trueflank/loop/gear/part/tidying.h"
 #include "trueflank/loop/gear/remainder_around.h"
 #include "trueflank/loop/gear/shape_refinement.h"
@@ -189,8 +190,11 @@ std::vector<RemainderFinding> forms_around(const PartModel& model, const CourseO
   if (course.profile == 0.0 && course.face == 0.0)
     for (const auto& [flank, opposite] :
          {std::pair(FlankChoice::kBoth, 0.0), std::pair(FlankChoice::kBoth, 1.0),
-          std::pair(FlankChoice::kLeft, 0.0), std::pair(FlankChoice::kRight, 0.0)})
+          std::pair(FlankChoice::kLeft, 0.0), std::pair(FlankChoice::kRight, 0.0)}) {
       sets.push_back(slips_around(model.geometry.teeth(), flank, opposite));
+      for (std::vector<Effect>& set : slits_arches_bursts(model.geometry.teeth(), flank, opposite))
+        sets.push_back(std::move(set));
+    }
   std::erase_if(sets, [](const std::vector<Effect>& set) { return set.empty(); });
   constexpr std::size_t kMovedEach = 4;  // and where each could come to
   std::size_t tried = 0;
@@ -199,6 +203,8 @@ std::vector<RemainderFinding> forms_around(const PartModel& model, const CourseO
     return set.front().family == find_family("unnamed_cut_order") ||
            set.front().family == find_family("unnamed_changing_wave") ||
            set.front().family == find_family("unnamed_slip") ||
+           set.front().family == find_family("unnamed_slit") ||
+           set.front().family == find_family("unnamed_arch_around") ||
            set.front().family == find_family("unnamed_sectors");
   };
   for (const std::vector<Effect>& set : sets)

@@ -481,14 +481,14 @@ void tell_as_one_form(PartModel& model) {
   };
   const auto once = [&] {
     if (tell_as_moved_part(model) || tell_as_sector(model) || tell_of_the_other_teeth(model) ||
-        tell_as_drift(model) || tell_from_nothing(model) || tell_as_drift_aside(model) ||
-        tell_as_swellings_at_end(model) || tell_as_repeating(model) || tell_as_views(model) ||
-        tell_as_body_wave(model) || tell_as_body_place(model) || tell_as_field(model) ||
-        tell_as_facing(model) || tell_as_product(model) || tell_as_swelling_form(model) ||
-        tell_as_corner(model) || tell_as_dish_of_all_flanks(model) ||
-        tell_as_alternating_wave(model) || tell_as_walking_waves(model) ||
-        tell_as_waves_of_both_flanks(model) || tell_as_name_with_a_place(model, 0) ||
-        tell_as_name_with_a_place(model, 1))
+        tell_as_drift(model) || tell_as_form_that_grows_anew(model) || tell_from_nothing(model) ||
+        tell_as_drift_aside(model) || tell_as_swellings_at_end(model) || tell_as_repeating(model) ||
+        tell_as_views(model) || tell_as_body_wave(model) || tell_as_body_place(model) ||
+        tell_as_field(model) || tell_as_facing(model) || tell_as_product(model) ||
+        tell_as_swelling_form(model) || tell_as_corner(model) ||
+        tell_as_dish_of_all_flanks(model) || tell_as_alternating_wave(model) ||
+        tell_as_walking_waves(model) || tell_as_waves_of_both_flanks(model) ||
+        tell_as_name_with_a_place(model, 0) || tell_as_name_with_a_place(model, 1))
       return true;
     for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
       std::array<std::vector<std::size_t>, 2> along;  // profile, face
