@@ -481,7 +481,7 @@ void tell_as_one_form(PartModel& model) {
   };
   const auto once = [&] {
     if (tell_as_moved_part(model) || tell_as_sector(model) || tell_of_the_other_teeth(model) ||
-        tell_as_drift(model) || tell_as_form_that_grows_anew(model) || tell_from_nothing(model) ||
+        tell_as_drift(model) || tell_from_nothing(model) || tell_as_form_that_grows_anew(model) ||
         tell_as_drift_aside(model) || tell_as_swellings_at_end(model) || tell_as_repeating(model) ||
         tell_as_views(model) || tell_as_body_wave(model) || tell_as_body_place(model) ||
         tell_as_field(model) || tell_as_facing(model) || tell_as_product(model) ||
