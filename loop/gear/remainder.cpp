@@ -22,12 +22,12 @@
 #include "trueflank/loop/gear/local/loud_places.h"
 #include "trueflank/loop/gear/local/odd_teeth.h"
 #include "trueflank/loop/gear/local/own_waves.h"
-#include "trueflank/loop/gear/local/plane_waves.h"
 #include "trueflank/loop/gear/local/remainder_courses.h"
 #include "trueflank/loop/gear/local/rotation_waves.h"
 #include "trueflank/loop/gear/local/rough_flanks.h"
 #include "trueflank/loop/gear/local/slanted_ridges.h"
 #include "trueflank/loop/gear/paired_sums.h"
+#include "trueflank/loop/gear/plane/plane_waves.h"
 #include "trueflank/loop/gear/remainder_around.h"
 #include "trueflank/loop/gear/remainder_values.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/local/plane_waves.h"
+#include "trueflank/loop/gear/plane/plane_waves.h"
 
 #include <algorithm>
 #include <array>
