@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The error of an axis of a machine that comes back with every turn of its screw or belt: all that
-// stands at one coordinate is shifted alike.
+// Forms of the transverse plane, the same at all heights. The error of an axis of a machine that
+// comes back with every turn of its screw or belt: all that stands at one coordinate is shifted
+// alike. Fringes of a projector: stripes in any direction. What two views of a scan overlap in, or
+// where a fixture hid the part: a part of the plane.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -10,6 +12,8 @@
 #include "trueflank/loop/gear/effects/along_flank.h"
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/effects/sign_words.h"
+#include "trueflank/loop/gear/plane/part_of_plane.h"
 
 namespace trueflank::loop::gear_effects {
 namespace {
@@ -110,6 +114,78 @@ EffectFamily unnamed_plane_saw() {
                 ? ""
                 : std::string(", where the shift jumps ") + (told.sign() > 0 ? "up" : "down")) +
            source_of_shift(shape);
+  };
+  return f;
+}
+
+EffectFamily unnamed_plane_stripes() {
+  enum Stripes : std::size_t { kDirection, kLength };
+  EffectFamily f = described("unnamed_plane_stripes", {"direction_deg", "wavelength_mm"});
+  f.columns = [](const EffectShape&) { return 2; };
+  f.evaluate = [](const FlankGeometry&, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = c[1] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    const PlanePoint point = point_of(p);
+    const double direction = rad_from_deg(shape[kDirection]),
+                 angle = kTwoPi * (point.x * std::cos(direction) + point.y * std::sin(direction)) /
+                         shape[kLength];
+    c[0] = std::cos(angle);
+    c[1] = std::sin(angle);
+  };
+  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    // Along the stripes and across them the phase turns by these shares of a wave over the gear.
+    std::vector<EffectShape> shapes;
+    const double wide_mm = 2.0 * g.reference_radius_mm();
+    for (const double waves : {0.2, 0.07, 0.02, 0.007, 0.002})
+      for (const double sign : {-1.0, 1.0}) {
+        const double off = sign * waves / wide_mm, frequency = 1.0 / shape[kLength] + off;
+        shapes.push_back(shape);
+        shapes.back()[kDirection] += deg_from_rad(off * shape[kLength]);
+        if (!(frequency > 0.0)) continue;
+        shapes.push_back(shape);
+        shapes.back()[kLength] = 1.0 / frequency;
+      }
+    return shapes;
+  };
+  f.term_keys = {number("direction_deg"), number("wavelength_mm")};
+  f.words = [](const ToldForm& told) {
+    return printed(
+               "the flanks stand out and lie back in stripes of the plane, in waves %.4g mm long",
+               told.shape[kLength]) +
+           printed(" in the direction %.3g deg,",
+                   std::fmod(std::fmod(told.shape[kDirection], 180.0) + 180.0, 180.0)) +
+           " at all heights, as from the fringes that a scanner projects";
+  };
+  return f;
+}
+
+EffectFamily unnamed_plane_part() {
+  EffectFamily f = described("unnamed_plane_part", {"part", "direction_deg", "from_mm", "to_mm",
+                                                    "x_mm", "y_mm", "radius_mm", "edge_mm"});
+  f.evaluate = [](const FlankGeometry&, const Place& p, const EffectShape& shape, double* c) {
+    const PlanePoint point = point_of(p);
+    c[0] = p.surface == Surface::kFlank ? PartOfPlane::at(shape).value(point.x, point.y) : 0.0;
+  };
+  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
+  f.faces_a_direction = true;
+  f.is_followed_nearly = true;
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes;
+    for (const PartOfPlane& part : PartOfPlane::at(shape).beside(g.reference_radius_mm()))
+      shapes.push_back(part.shape());
+    return shapes;
+  };
+  f.values_sought = [](const EffectShape& shape) { return PartOfPlane::at(shape).values_sought(); };
+  f.term_keys = {{"part", TermKey::Kind::kWord, {"strip", "beyond", "disc"}}};
+  for (const char* value :
+       {"direction_deg", "from_mm", "to_mm", "x_mm", "y_mm", "radius_mm", "edge_mm"})
+    f.term_keys.push_back(number(value));
+  f.words = [](const ToldForm& told) {
+    const int sign = told.sign();
+    return "the flanks " + (sign == 0 ? "stand out or lie back " : stand(sign) + " ") +
+           PartOfPlane::at(told.shape).words() +
+           ", at all heights, as where views of a scan overlap or a field of exposure ends";
   };
   return f;
 }
