@@ -56,8 +56,9 @@ class RemainderSearch {
         begun_beside([this] { return likeliest_plane_wave(geometry_, table_, row_um_, used_); });
     auto stripes =
         begun_beside([this] { return likeliest_plane_stripes(geometry_, table_, row_um_, used_); });
-    auto part =
-        begun_beside([this] { return likeliest_part_of_plane(geometry_, table_, row_um_, used_); });
+    auto part = begun_beside([this] {
+      return likeliest_part_of_plane(geometry_, table_, row_um_, used_, BoundsOfPart::kCrossFlanks);
+    });
     auto ridge =
         begun_beside([this] { return likeliest_slanted_ridge(geometry_, table_, row_um_, used_); });
     values_ = gather_values(geometry_, table_, patches_, row_um_, which_, used_);

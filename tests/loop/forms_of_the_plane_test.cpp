@@ -11,7 +11,7 @@
 namespace trueflank::test {
 namespace {
 
-Draw draw_of(unsigned seed) { return Draw(seed * 6271U + 29U); }
+Draw draw_in_plane(unsigned seed) { return Draw(seed * 6271U + 29U); }
 
 /// Walls too thick by this where a place of the plane lies so.
 template <class Inside>
@@ -28,7 +28,7 @@ void expect_bound(const loop::LoopResult& result, std::size_t k, double mm, doub
 
 TEST(PartOfThePlane, AStripIsNoSingleTooth) {
   for (unsigned seed = 1; seed <= survey_size(3U, 10U); ++seed) {
-    Draw draw = draw_of(seed);
+    Draw draw = draw_in_plane(seed);
     const MadeGear gear = spur(draw.whole(24, 44));
     const double um = draw.sign() * draw.between(18.0, 45.0),
                  middle = draw.between(0.1, 0.6) * gear.tip_mm,
@@ -45,7 +45,7 @@ TEST(PartOfThePlane, AStripIsNoSingleTooth) {
 
 TEST(PartOfThePlane, WhatLiesBeyondABoundIsOneForm) {
   for (unsigned seed = 1; seed <= survey_size(2U, 8U); ++seed) {
-    Draw draw = draw_of(100U + seed);
+    Draw draw = draw_in_plane(100U + seed);
     const MadeGear gear = spur(draw.whole(20, 40));
     const double um = draw.sign() * draw.between(18.0, 45.0),
                  beyond = draw.between(0.1, 0.7) * gear.tip_mm, towards = draw.between(-3.1, 3.1);
@@ -63,7 +63,7 @@ TEST(PartOfThePlane, WhatLiesBeyondABoundIsOneForm) {
 
 TEST(PartOfThePlane, ADiscIsOneForm) {
   for (unsigned seed = 1; seed <= survey_size(2U, 8U); ++seed) {
-    Draw draw = draw_of(200U + seed);
+    Draw draw = draw_in_plane(200U + seed);
     const MadeGear gear = spur(draw.whole(24, 40));
     const double um = draw.sign() * draw.between(20.0, 45.0), towards = draw.between(-3.1, 3.1),
                  off = draw.between(0.8, 1.0) * gear.tip_mm,
@@ -72,14 +72,17 @@ TEST(PartOfThePlane, ADiscIsOneForm) {
       return std::hypot(x - off * std::cos(towards), y - off * std::sin(towards)) < radius;
     });
     const auto result = close(gear, scan_of(gear, {made}, scanned(6000, 4.0, seed)), true);
-    expect_one_of_size(result, std::abs(um), 0.06);
+    // (its edge, between points of few flanks, may leave something that is said to be left)
+    ASSERT_EQ(result.effects.size(), 1U) << list(result);
+    EXPECT_NEAR(amplitude_of_first(result), std::abs(um), 0.06 * std::abs(um)) << list(result);
     EXPECT_FALSE(has_name(result)) << list(result);
+    EXPECT_TRUE(tells(result, "in a disc of the plane")) << list(result);
   }
 }
 
 TEST(StripesOfThePlane, InAnyDirectionAreOneForm) {
   for (unsigned seed = 1; seed <= survey_size(3U, 10U); ++seed) {
-    Draw draw = draw_of(300U + seed);
+    Draw draw = draw_in_plane(300U + seed);
     const MadeGear gear = spur(draw.whole(20, 40));
     const double um = draw.between(14.0, 40.0), towards = draw.between(0.0, std::numbers::pi),
                  length = 2.0 * gear.tip_mm / draw.between(2.5, 8.0),

@@ -222,8 +222,8 @@ std::vector<Effect> with_reversal(const PartModel& model, std::vector<std::size_
   return both;
 }
 
-/// A part of the plane, for what stands on some teeth: it crosses their flanks, and the pieces do
-/// not lead to it.
+/// A part of the plane, for what stands on some teeth: it may cross their flanks, and the pieces do
+/// not lead to it. What it says on whole flanks it says with fewer values than they.
 std::vector<Effect> with_part_of_plane(const PartModel& model, std::vector<std::size_t>& these) {
   constexpr std::size_t kFewest = 2;
   if (model.table->points_mm.empty()) return {};
@@ -241,9 +241,10 @@ std::vector<Effect> with_part_of_plane(const PartModel& model, std::vector<std::
   if (nameless.size() >= kFewest && nameless.size() < on_teeth.size()) sets.push_back(nameless);
   std::vector<Effect> forms;
   for (const std::vector<std::size_t>& set : sets)
-    if (const auto part = likeliest_part_of_plane(
-            model.geometry, model.table,
-            *fit_of(model, without(model.effects, set))->residuals_um(), used))
+    if (const auto part =
+            likeliest_part_of_plane(model.geometry, model.table,
+                                    *fit_of(model, without(model.effects, set))->residuals_um(),
+                                    used, BoundsOfPart::kInGapsAndTeethToo))
       forms.push_back({find_family("unnamed_plane_part"), FlankChoice::kBoth, part->part.shape()});
   if (forms.empty()) return {};
   return cheapest_one_form(model, sets, forms, {}, these);

@@ -116,6 +116,7 @@ PartTrial best_about(const PlaneValues& values, double x_mm, double y_mm, double
 struct SaidOfPart {
   double square = 0.0, amount_um = 0.0;
   double within_square = 0.0, within_um = 0.0, within_variance = 0.0;
+  double within_weight = 0.0;  ///< of values that bounds part from others of their flank
   double of_others_um = 0.0;  ///< of all values without those of the tooth that says most within
 };
 
@@ -186,6 +187,7 @@ SaidOfPart said_of_part(const PlaneValues& values, const PartOfPlane& part, bool
     others = without;
   }
   if (!(bb > 0.0) || n < 2.0) return found;
+  found.within_weight = bb;
   found.within_um = bu / bb;
   found.within_square = bu * bu / bb;
   if (others.is_split()) found.of_others_um = others.product() / others.square();
@@ -201,6 +203,15 @@ bool may_be_part(const SaidOfPart& fit, double least_chi_square, double alike) {
   const double share = fit.within_um / fit.amount_um, of_others = fit.of_others_um / fit.amount_um;
   return fit.within_square > least_chi_square * fit.within_variance && share > alike &&
          share < 1.0 / alike && of_others > kOfOthers * alike;
+}
+
+/// True where flanks that bounds cross say otherwise than all together.
+bool is_denied_within(const SaidOfPart& fit, double alike) {
+  constexpr double kSaysSomething = 16.0;  // chi-square, were it as all together say
+  if (!(fit.within_weight > 0.0)) return false;
+  const double share = fit.within_um / fit.amount_um;
+  return fit.amount_um * fit.amount_um * fit.within_weight > kSaysSomething * fit.within_variance &&
+         !(share > alike && share < 1.0 / alike);
 }
 
 /// How much more the inner and the outer halves of flanks differ than their scatter lets them: the
@@ -234,7 +245,7 @@ double variance_times(const PlaneValues& values, double variance) {
 
 /// To the best place near it.
 void move_part_to_place(const PlaneValues& values, double radius_mm, PartTrial& trial) {
-  constexpr int kMostSteps = 12;
+  constexpr int kMostSteps = 25;
   for (int step = 0; step < kMostSteps; ++step) {
     const double before = trial.square;
     for (const PartOfPlane& beside : trial.part.beside(radius_mm))
@@ -259,6 +270,25 @@ void take_side_with_material(const PlaneValues& values, PartOfPlane& part) {
   part.from_mm = -part.from_mm;
 }
 
+/// Sharp bounds into the middle between the values on both sides: in a gap between teeth all places
+/// say the same.
+void put_bounds_between_values(const PlaneValues& values, PartOfPlane& part) {
+  if (part.edge_mm > 0.0) return;
+  const auto put = [&](double PartOfPlane::*bound) {
+    double before = -1e300, after = 1e300;
+    for (std::size_t i = 0; i < values.um.size(); ++i) {
+      const double along = part.along_mm(values.at_mm[0][i], values.at_mm[1][i]);
+      if (along < part.*bound)
+        before = std::max(before, along);
+      else
+        after = std::min(after, along);
+    }
+    if (before > -1e300 && after < 1e300) part.*bound = 0.5 * (before + after);
+  };
+  put(part.kind == PartOfPlane::kDisc ? &PartOfPlane::radius_mm : &PartOfPlane::from_mm);
+  if (part.kind == PartOfPlane::kStrip) put(&PartOfPlane::to_mm);
+}
+
 /// Squares that the distance from the axis takes out: what all teeth have alike over the profile.
 double square_by_radius(const PlaneValues& values, double wide_mm) {
   constexpr std::size_t kRings = 60;
@@ -280,7 +310,8 @@ double square_by_radius(const PlaneValues& values, double wide_mm) {
 std::optional<LikeliestPart> likeliest_part_of_plane(const FlankGeometry& geometry,
                                                      const Observations& table,
                                                      const std::vector<float>& row_um,
-                                                     const std::vector<bool>& used) {
+                                                     const std::vector<bool>& used,
+                                                     BoundsOfPart bounds) {
   const PlaneValues values = values_in_plane(geometry, table, row_um, used);
   if (values.um.size() < kFewestInPlane) return {};
   double wide_mm = 0.0;
@@ -289,6 +320,8 @@ std::optional<LikeliestPart> likeliest_part_of_plane(const FlankGeometry& geomet
   wide_mm *= 1.001;
   constexpr double kClearly = 80.0;  // chi-square within flanks
   constexpr double kAlike = 0.75, kWorthMoving = 60.0, kOffTheAxis = 0.55;
+  constexpr double kMuch =
+      0.3;  // of all squares: the best bounds may cross flanks, the grid's none
   std::array<PartTrial, 3> best;  // by kind
   std::vector<std::array<PartTrial, 2>> across(kDirectionsAcross);
   for_each_piece(across.size(), [&](std::size_t k) {
@@ -313,7 +346,8 @@ std::optional<LikeliestPart> likeliest_part_of_plane(const FlankGeometry& geomet
   double least = 1e300;
   for (PartTrial& trial : best) {
     if (trial.square < kWorthMoving * all / static_cast<double>(values.um.size()) ||
-        !may_be_part(said_of_part(values, trial.part, true), 0.4 * kClearly, 0.5 * kAlike))
+        (trial.square < kMuch * all &&
+         !may_be_part(said_of_part(values, trial.part, true), 0.4 * kClearly, 0.5 * kAlike)))
       continue;
     move_part_to_place(values, radius_mm, trial);
     const double cost = static_cast<double>(values.um.size()) * std::log(all - trial.square) +
@@ -324,14 +358,18 @@ std::optional<LikeliestPart> likeliest_part_of_plane(const FlankGeometry& geomet
   }
   if (!(chosen.square > square_by_radius(values, wide_mm))) return {};
   take_side_with_material(values, chosen.part);
+  put_bounds_between_values(values, chosen.part);
   // Within the flanks that its bounds cross.
   SaidOfPart fit = said_of_part(values, chosen.part, true);
   fit.within_variance *= variance_times(values, fit.within_variance);
-  if (!may_be_part(fit, kClearly, kAlike)) return {};
+  const bool crosses = may_be_part(fit, kClearly, kAlike);
+  if (!crosses && (bounds == BoundsOfPart::kCrossFlanks || chosen.part.edge_mm > 0.0 ||
+                   chosen.square < kMuch * all || is_denied_within(fit, kAlike)))
+    return {};
   constexpr double kLooks = 1e6;
   const double chi_square = fit.within_square / fit.within_variance;
   LikeliestPart found{chosen.part};
-  found.p_value = std::min(1.0, kLooks * std::exp(-0.5 * chi_square));
+  if (crosses) found.p_value = std::min(1.0, kLooks * std::exp(-0.5 * chi_square));
   found.amount_um = fit.amount_um;
   found.square =
       fit.square * static_cast<double>(values.rows) / static_cast<double>(values.um.size());

@@ -17,12 +17,19 @@ struct LikeliestPart {
   double amount_um = 0.0;
 };
 
-/// The strip, half plane or disc that takes most out of scanned flanks. What stands on whole flanks
-/// or teeth is none: bounds cross flanks, and what they leave on each must say the same as all of
-/// it. `row_um`: residuals of the table's rows; `used`: which rows are looked at.
+/// Where the bounds of a part may lie.
+enum class BoundsOfPart {
+  kCrossFlanks,       ///< what stands on whole flanks or teeth is none
+  kInGapsAndTeethToo  ///< sharp ones, too, that part whole flanks, where no crossed flank denies it
+};
+
+/// The strip, half plane or disc that takes most out of scanned flanks. What its bounds leave on
+/// each flank that they cross must say the same as all of it. `row_um`: residuals of the table's
+/// rows; `used`: which rows are looked at.
 [[nodiscard]] std::optional<LikeliestPart> likeliest_part_of_plane(const FlankGeometry& geometry,
                                                                    const Observations& table,
                                                                    const std::vector<float>& row_um,
-                                                                   const std::vector<bool>& used);
+                                                                   const std::vector<bool>& used,
+                                                                   BoundsOfPart bounds);
 
 }  // namespace trueflank::loop

@@ -183,9 +183,8 @@ std::optional<PlaneStripes> likeliest_plane_stripes(const FlankGeometry& geometr
   const auto best = std::max_element(grid.square.begin(), grid.square.end()) - grid.square.begin();
   const double most = grid.square[static_cast<std::size_t>(best)];
   if (!(most > 0.0)) return {};
-  WaveVector wave = grid.waves[static_cast<std::size_t>(best)];
-  for (std::size_t i = 0; i < grid.waves.size(); ++i)
-    if (kClearly * grid.square[i] > most && waves_apart(grid.waves[i], wave) > kBeside) return {};
+  const WaveVector on_grid = grid.waves[static_cast<std::size_t>(best)];
+  WaveVector wave = on_grid;
   const double usual =
       median(std::vector<double>(grid.square)) / std::log(2.0);  // their mean, of chance
   if (!(usual > 0.0)) return {};
@@ -208,6 +207,15 @@ std::optional<PlaneStripes> likeliest_plane_stripes(const FlankGeometry& geometr
         moved = true;
       }
     }
+  // What takes out nearly all needs no comparison: the teeth let others look alike. (Waves as long
+  // as the gear look like ovality.)
+  constexpr double kNearlyAll = 0.7, kFewestOfThese = 2.0;
+  double all = 0.0;
+  for (const double um : values.um) all += um * um;
+  if (gain.square < kNearlyAll * all || std::hypot(wave[0], wave[1]) < kFewestOfThese)
+    for (std::size_t i = 0; i < grid.waves.size(); ++i)
+      if (kClearly * grid.square[i] > most && waves_apart(grid.waves[i], on_grid) > kBeside)
+        return {};
   found.direction_deg = deg_from_rad(std::atan2(wave[1], wave[0]));
   found.wavelength_mm = width_mm / std::hypot(wave[0], wave[1]);
   found.amplitude_um = gain.amplitude_um;
