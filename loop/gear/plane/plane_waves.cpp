@@ -105,7 +105,7 @@ void tell_as_saw(const PlaneValues& values, double width_mm, PlaneWave& wave) {
 
 /// Waves of the plane, over the width of the gear, along x and along y.
 using WaveVector = std::array<double, 2>;
-constexpr double kFewestStripes = 1.0, kMostStripes = 20.0, kStripeStep = 0.4;
+constexpr double kFewestStripes = 1.0, kMostStripes = 12.0, kStripeStep = 0.4;
 constexpr int kStripeSide = static_cast<int>(kMostStripes / kStripeStep);
 
 double waves_apart(const WaveVector& a, const WaveVector& b) {

@@ -46,7 +46,7 @@ struct PlaneStripes {
   double amplitude_um = 0.0;
 };
 
-/// The likeliest stripes in scanned flanks, from one wave over the gear to twenty, judged against
+/// The likeliest stripes in scanned flanks, from one wave over the gear to twelve, judged against
 /// stripes of other lengths and directions. None where others are nearly as strong.
 [[nodiscard]] std::optional<PlaneStripes> likeliest_plane_stripes(const FlankGeometry& geometry,
                                                                   const Observations& table,
