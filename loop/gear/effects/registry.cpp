@@ -77,7 +77,6 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_plane_wave(),
         unnamed_plane_saw(),
         unnamed_plane_stripes(),
-        unnamed_plane_part(),
         unnamed_slanted_ridge(),
         unnamed_facing(),
         unnamed_facing_one_side(),

@@ -112,9 +112,6 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_plane_saw();
 /// Waves of the plane in any direction, along the normals.
 [[nodiscard]] EffectFamily unnamed_plane_stripes();
-/// A strip of the plane, what lies beyond a bound, a disc (plane/part_of_plane.h). Told in place of
-/// forms of the teeth that lie there, too (part/whole_forms.cpp).
-[[nodiscard]] EffectFamily unnamed_plane_part();
 [[nodiscard]] EffectFamily unnamed_slanted_ridge();
 [[nodiscard]] EffectFamily unnamed_facing();
 [[nodiscard]] EffectFamily unnamed_facing_one_side();

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Forms of the transverse plane, the same at all heights. The error of an axis of a machine that
 // comes back with every turn of its screw or belt: all that stands at one coordinate is shifted
-// alike. Fringes of a projector: stripes in any direction. What two views of a scan overlap in, or
-// where a fixture hid the part: a part of the plane.
+// alike. Fringes of a projector: stripes in any direction.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -13,7 +12,6 @@
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/effects/sign_words.h"
-#include "trueflank/loop/gear/plane/part_of_plane.h"
 
 namespace trueflank::loop::gear_effects {
 namespace {
@@ -156,36 +154,6 @@ EffectFamily unnamed_plane_stripes() {
            printed(" in the direction %.3g deg,",
                    std::fmod(std::fmod(told.shape[kDirection], 180.0) + 180.0, 180.0)) +
            " at all heights, as from the fringes that a scanner projects";
-  };
-  return f;
-}
-
-EffectFamily unnamed_plane_part() {
-  EffectFamily f = described("unnamed_plane_part", {"part", "direction_deg", "from_mm", "to_mm",
-                                                    "x_mm", "y_mm", "radius_mm", "edge_mm"});
-  f.evaluate = [](const FlankGeometry&, const Place& p, const EffectShape& shape, double* c) {
-    const PlanePoint point = point_of(p);
-    c[0] = p.surface == Surface::kFlank ? PartOfPlane::at(shape).value(point.x, point.y) : 0.0;
-  };
-  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
-  f.faces_a_direction = true;
-  f.is_followed_nearly = true;
-  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
-    std::vector<EffectShape> shapes;
-    for (const PartOfPlane& part : PartOfPlane::at(shape).beside(g.reference_radius_mm()))
-      shapes.push_back(part.shape());
-    return shapes;
-  };
-  f.values_sought = [](const EffectShape& shape) { return PartOfPlane::at(shape).values_sought(); };
-  f.term_keys = {{"part", TermKey::Kind::kWord, {"strip", "beyond", "disc"}}};
-  for (const char* value :
-       {"direction_deg", "from_mm", "to_mm", "x_mm", "y_mm", "radius_mm", "edge_mm"})
-    f.term_keys.push_back(number(value));
-  f.words = [](const ToldForm& told) {
-    const int sign = told.sign();
-    return "the flanks " + (sign == 0 ? "stand out or lie back " : stand(sign) + " ") +
-           PartOfPlane::at(told.shape).words() +
-           ", at all heights, as where views of a scan overlap or a field of exposure ends";
   };
   return f;
 }

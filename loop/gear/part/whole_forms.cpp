@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whole sections that stand aside by an amount that changes with the height, feet of one side and
 // play of an axis: what was chosen is in pieces, with names among them. The form is taken up, and
-// all else is chosen anew beside it. So are forms of some teeth (forms_of_runs.cpp), sectors with
-// soft edges, and parts of the plane.
+// all else is chosen anew beside it. So are forms of some teeth (forms_of_runs.cpp), and
+// sectors with soft edges.
 #include "trueflank/loop/gear/part/whole_forms.h"
 
 #include <algorithm>
@@ -23,7 +23,6 @@
 #include "trueflank/loop/gear/part/sectors.h"
 #include "trueflank/loop/gear/part/taken_up.h"
 #include "trueflank/loop/gear/part/waves.h"
-#include "trueflank/loop/gear/plane/plane_parts.h"
 
 namespace trueflank::loop {
 namespace {
@@ -222,34 +221,6 @@ std::vector<Effect> with_reversal(const PartModel& model, std::vector<std::size_
   return both;
 }
 
-/// A part of the plane, for what stands on some teeth: it may cross their flanks, and the pieces do
-/// not lead to it. What it says on whole flanks it says with fewer values than they.
-std::vector<Effect> with_part_of_plane(const PartModel& model, std::vector<std::size_t>& these) {
-  constexpr std::size_t kFewest = 2;
-  if (model.table->points_mm.empty()) return {};
-  std::vector<std::size_t> on_teeth, nameless;
-  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
-    const Effect& effect = model.effects[e];
-    if (moves_sections(effect) || runs_of(model.geometry, effect) != Runs::kOtherwise) continue;
-    on_teeth.push_back(e);
-    if (!effect.family->named || effect.family->local) nameless.push_back(e);
-  }
-  if (on_teeth.size() < kFewest) return {};
-  std::vector<bool> used(model.table->rows.size());
-  for (std::size_t i = 0; i < used.size(); ++i) used[i] = model.patches.patch_of_row[i] >= 0;
-  std::vector<std::vector<std::size_t>> sets{on_teeth};
-  if (nameless.size() >= kFewest && nameless.size() < on_teeth.size()) sets.push_back(nameless);
-  std::vector<Effect> forms;
-  for (const std::vector<std::size_t>& set : sets)
-    if (const auto part =
-            likeliest_part_of_plane(model.geometry, model.table,
-                                    *fit_of(model, without(model.effects, set))->residuals_um(),
-                                    used, BoundsOfPart::kInGapsAndTeethToo))
-      forms.push_back({find_family("unnamed_plane_part"), FlankChoice::kBoth, part->part.shape()});
-  if (forms.empty()) return {};
-  return cheapest_one_form(model, sets, forms, {}, these);
-}
-
 /// True where one of these forms stands for what was chosen: it is taken up in place of that.
 bool take_up_whole_forms(PartModel& model) {
   std::vector<std::size_t> these;
@@ -258,7 +229,6 @@ bool take_up_whole_forms(PartModel& model) {
   if (with.empty()) with = with_wave_of_the_tool(model, these);
   if (with.empty()) with = with_sections_aside(model, these);
   if (with.empty()) with = with_one_side(model, these);
-  if (with.empty()) with = with_part_of_plane(model, these);
   if (with.empty()) with = with_reversal(model, these);
   if (with.empty()) with = with_products(model, these);
   if (with.empty()) with = with_form_growing_across(model, these);

@@ -113,7 +113,7 @@ double waves_apart(const WaveVector& a, const WaveVector& b) {
   return std::min(std::hypot(a[0] - b[0], a[1] - b[1]), std::hypot(a[0] + b[0], a[1] + b[1]));
 }
 
-/// Stripes of a grid, and what each takes out of every second value, about.
+/// Stripes of a grid, and what each takes out of every third value, about.
 struct StripesOfGrid {
   std::vector<WaveVector> waves;
   std::vector<double> square;
@@ -128,7 +128,7 @@ StripesOfGrid stripes_of_grid(const PlaneValues& values, double width_mm) {
     constexpr std::size_t kAll = 2 * kStripeSide + 1;
     std::array<double, kAll> real{}, imaginary{};
     double rows = 0.0;
-    for (std::size_t i = 0; i < count; i += 2) {
+    for (std::size_t i = 0; i < count; i += 3) {
       rows += 1.0;
       const double x = kTwoPi * values.at_mm[0][i] / width_mm,
                    y = kTwoPi * values.at_mm[1][i] / width_mm;
