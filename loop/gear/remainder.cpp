@@ -22,12 +22,12 @@
 #include "trueflank/loop/gear/local/loud_places.h"
 #include "trueflank/loop/gear/local/odd_teeth.h"
 #include "trueflank/loop/gear/local/own_waves.h"
-#include "trueflank/loop/gear/local/plane_waves.h"
 #include "trueflank/loop/gear/local/remainder_courses.h"
 #include "trueflank/loop/gear/local/rotation_waves.h"
 #include "trueflank/loop/gear/local/rough_flanks.h"
 #include "trueflank/loop/gear/local/slanted_ridges.h"
 #include "trueflank/loop/gear/paired_sums.h"
+#include "trueflank/loop/gear/plane/plane_waves.h"
 #include "trueflank/loop/gear/remainder_around.h"
 #include "trueflank/loop/gear/remainder_values.h"
 
@@ -53,6 +53,8 @@ class RemainderSearch {
     auto rotation = begun_beside([this] { return wave_over_rotation(); });
     auto plane =
         begun_beside([this] { return likeliest_plane_wave(geometry_, table_, row_um_, used_); });
+    auto stripes =
+        begun_beside([this] { return likeliest_plane_stripes(geometry_, table_, row_um_, used_); });
     auto ridge =
         begun_beside([this] { return likeliest_slanted_ridge(geometry_, table_, row_um_, used_); });
     values_ = gather_values(geometry_, table_, patches_, row_um_, which_, used_);
@@ -67,7 +69,7 @@ class RemainderSearch {
     for (RemainderFinding& finding : found_)
       finding.p_value = std::min(1.0, looks * finding.p_value);
     look_over_rotation(rotation.get());
-    look_in_space(plane.get(), ridge.get());
+    look_in_space(plane.get(), stripes.get(), ridge.get());
     look_around();
     if (which_ == RemainderOf::kAll) look_at_single_teeth();
     std::erase_if(found_, [](const RemainderFinding& f) { return f.p_value > level_of(f); });
@@ -511,9 +513,19 @@ class RemainderSearch {
   }
 
   void look_in_space(const std::optional<PlaneWave>& wave,
+                     const std::optional<PlaneStripes>& stripes,
                      const std::optional<SlantedRidge>& ridge) {
     constexpr double kLevel = 1e-6;  // (so much surer that it is no look of the others)
-    if (wave && wave->p_value <= kLevel)
+    // Of forms of the plane the one that says most.
+    const auto said = [](const auto& form) {
+      return form && form->p_value <= kLevel ? form->square : 0.0;
+    };
+    const double of_wave = said(wave), of_stripes = said(stripes);
+    if (of_stripes > of_wave)
+      add_form("unnamed_plane_stripes", FlankChoice::kBoth,
+               {stripes->direction_deg, stripes->wavelength_mm}, stripes->p_value,
+               stripes->amplitude_um, false, stripes->square);
+    if (of_wave > of_stripes)
       add_form(std::isnan(wave->jump_mm) ? "unnamed_plane_wave" : "unnamed_plane_saw",
                FlankChoice::kBoth, wave->shape(), wave->p_value, wave->amplitude_um, false,
                wave->square);

@@ -54,7 +54,7 @@ TEST(SignWords, AreSaidOfEveryFormOfOneCoefficient) {
         "unnamed_waves_changing", "unnamed_waves_burst", "unnamed_bow", "unnamed_axis_kink",
         "unnamed_field", "unnamed_facing", "unnamed_moved_sector", "unnamed_drift_aside",
         "unnamed_broken_wave", "unnamed_stairs", "unnamed_wave_of_some", "unnamed_pattern",
-        "unnamed_plane_wave", "unnamed_plane_saw", "unnamed_changing_wave",
+        "unnamed_plane_wave", "unnamed_plane_saw", "unnamed_plane_stripes", "unnamed_changing_wave",
         // (play is said by its axis; the words of those of some teeth are those of all)
         "unnamed_wobble", "unnamed_reversal", "unnamed_kink_of_teeth", "unnamed_bend_of_teeth",
         "unnamed_waviness_of_teeth", "unnamed_dish_of_teeth", "unnamed_slanted_ridge_of_teeth",

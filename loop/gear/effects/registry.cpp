@@ -78,6 +78,7 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_changing_wave(),
         unnamed_plane_wave(),
         unnamed_plane_saw(),
+        unnamed_plane_stripes(),
         unnamed_slanted_ridge(),
         unnamed_facing(),
         unnamed_facing_one_side(),

@@ -112,6 +112,8 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_changing_wave();
 [[nodiscard]] EffectFamily unnamed_plane_wave();
 [[nodiscard]] EffectFamily unnamed_plane_saw();
+/// Waves of the plane in any direction, along the normals.
+[[nodiscard]] EffectFamily unnamed_plane_stripes();
 [[nodiscard]] EffectFamily unnamed_slanted_ridge();
 [[nodiscard]] EffectFamily unnamed_facing();
 [[nodiscard]] EffectFamily unnamed_facing_one_side();

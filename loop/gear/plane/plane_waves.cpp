@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/local/plane_waves.h"
+#include "trueflank/loop/gear/plane/plane_waves.h"
 
 #include <algorithm>
 #include <array>
@@ -12,43 +12,14 @@
 #include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/gear/effect.h"
 #include "trueflank/loop/gear/effects/along_flank.h"
-#include "trueflank/loop/gear/table/thinned_rows.h"
+#include "trueflank/loop/gear/plane/plane_values.h"
 
 namespace trueflank::loop {
 namespace {
 
-/// Of a scan's many values so many tell as much as is asked.
-constexpr std::size_t kRowsAsked = 3000, kFewestRowsAsked = 400;
+constexpr std::size_t kFewestRowsAsked = 400;
 /// Waves over the width of the gear: from ... in steps of ... to.
 constexpr double kFewestPlaneWaves = 0.5, kPlaneStep = 0.25, kMostPlaneWaves = 120.0;
-
-/// Values at places, with the share of a shift along x and y that they see.
-struct PlaneValues {
-  std::vector<double> um;
-  std::array<std::vector<double>, 2> at_mm, normal;
-  std::size_t rows = 0;  ///< of which these are some
-};
-
-PlaneValues gathered_in_plane(const FlankGeometry& geometry, const Observations& table,
-                              const std::vector<float>& row_um, const std::vector<bool>& used) {
-  PlaneValues values;
-  for (std::size_t i = 0; i < table.rows.size(); ++i)
-    values.rows += used[i] && table.rows[i].kind == ObservationKind::kScanFlank ? 1U : 0U;
-  const ThinnedRows some(values.rows, kRowsAsked);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    if (!used[i] || table.rows[i].kind != ObservationKind::kScanFlank || !some.has(i)) continue;
-    const Place& place = table.place(table.rows[i]);
-    values.um.push_back(row_um[i]);
-    sum += row_um[i];
-    values.at_mm[0].push_back(place.radius_mm * place.polar_direction[0]);
-    values.at_mm[1].push_back(place.radius_mm * place.polar_direction[1]);
-    values.normal[0].push_back(normal_part(geometry, place, 1.0, 0.0));
-    values.normal[1].push_back(normal_part(geometry, place, 0.0, 1.0));
-  }
-  for (double& um : values.um) um -= sum / static_cast<double>(values.um.size());
-  return values;
-}
 
 struct PlaneGain {
   double square = 0.0, amplitude_um = 0.0;
@@ -132,7 +103,126 @@ void tell_as_saw(const PlaneValues& values, double width_mm, PlaneWave& wave) {
   }
 }
 
+/// Waves of the plane, over the width of the gear, along x and along y.
+using WaveVector = std::array<double, 2>;
+constexpr double kFewestStripes = 1.0, kMostStripes = 12.0, kStripeStep = 0.4;
+constexpr int kStripeSide = static_cast<int>(kMostStripes / kStripeStep);
+
+double waves_apart(const WaveVector& a, const WaveVector& b) {
+  // (a wave is the same towards both sides)
+  return std::min(std::hypot(a[0] - b[0], a[1] - b[1]), std::hypot(a[0] + b[0], a[1] + b[1]));
+}
+
+/// Stripes of a grid, and what each takes out of every third value, about.
+struct StripesOfGrid {
+  std::vector<WaveVector> waves;
+  std::vector<double> square;
+};
+
+StripesOfGrid stripes_of_grid(const PlaneValues& values, double width_mm) {
+  const std::size_t count = values.um.size();
+  StripesOfGrid found;
+  std::vector<std::vector<double>> squares(static_cast<std::size_t>(kStripeSide) + 1);
+  for_each_piece(squares.size(), [&](std::size_t k) {
+    const double along_x = static_cast<double>(k) * kStripeStep;
+    constexpr std::size_t kAll = 2 * kStripeSide + 1;
+    std::array<double, kAll> real{}, imaginary{};
+    double rows = 0.0;
+    for (std::size_t i = 0; i < count; i += 3) {
+      rows += 1.0;
+      const double x = kTwoPi * values.at_mm[0][i] / width_mm,
+                   y = kTwoPi * values.at_mm[1][i] / width_mm;
+      const std::complex<double> turn = std::polar(1.0, kStripeStep * y);
+      std::complex<double> wave =
+          values.um[i] * std::polar(1.0, along_x * x - kStripeSide * kStripeStep * y);
+      for (std::size_t j = 0; j < kAll; ++j) {
+        real[j] += wave.real();
+        imaginary[j] += wave.imag();
+        wave = {wave.real() * turn.real() - wave.imag() * turn.imag(),
+                wave.real() * turn.imag() + wave.imag() * turn.real()};
+      }
+    }
+    for (std::size_t j = 0; j < kAll; ++j)
+      squares[k].push_back(2.0 * (real[j] * real[j] + imaginary[j] * imaginary[j]) / rows);
+  });
+  for (std::size_t k = 0; k < squares.size(); ++k)
+    for (std::size_t j = 0; j < squares[k].size(); ++j) {
+      const WaveVector wave{static_cast<double>(k) * kStripeStep,
+                            (static_cast<double>(j) - kStripeSide) * kStripeStep};
+      const double length = std::hypot(wave[0], wave[1]);
+      if (length < kFewestStripes || length > kMostStripes || (k == 0 && wave[1] < 0.0)) continue;
+      found.waves.push_back(wave);
+      found.square.push_back(squares[k][j]);
+    }
+  return found;
+}
+
+PlaneGain gain_of_stripes(const PlaneValues& values, double width_mm, const WaveVector& wave) {
+  std::complex<double> product, squares;
+  for (std::size_t i = 0; i < values.um.size(); ++i) {
+    const double angle =
+        kTwoPi * (wave[0] * values.at_mm[0][i] + wave[1] * values.at_mm[1][i]) / width_mm;
+    const std::complex<double> turn = std::polar(1.0, angle);
+    product += values.um[i] * turn;
+    squares += turn * turn;
+  }
+  return gain_of(product, squares, static_cast<double>(values.um.size()));
+}
+
 }  // namespace
+
+std::optional<PlaneStripes> likeliest_plane_stripes(const FlankGeometry& geometry,
+                                                    const Observations& table,
+                                                    const std::vector<float>& row_um,
+                                                    const std::vector<bool>& used) {
+  constexpr double kClearly = 2.5, kBeside = 1.3;  // waves over the width
+  const PlaneValues values = values_in_plane(geometry, table, row_um, used);
+  if (values.um.size() < kFewestRowsAsked) return {};
+  const double width_mm = 2.0 * geometry.reference_radius_mm();
+  const StripesOfGrid grid = stripes_of_grid(values, width_mm);
+  const auto best = std::max_element(grid.square.begin(), grid.square.end()) - grid.square.begin();
+  const double most = grid.square[static_cast<std::size_t>(best)];
+  if (!(most > 0.0)) return {};
+  const WaveVector on_grid = grid.waves[static_cast<std::size_t>(best)];
+  WaveVector wave = on_grid;
+  const double usual =
+      median(std::vector<double>(grid.square)) / std::log(2.0);  // their mean, of chance
+  if (!(usual > 0.0)) return {};
+  PlaneStripes found;
+  found.p_value = std::min(1.0, static_cast<double>(grid.waves.size()) * std::exp(-most / usual));
+  constexpr double kSure = 1e-3;
+  if (found.p_value > kSure) return {};
+  // Between the steps.
+  PlaneGain gain = gain_of_stripes(values, width_mm, wave);
+  for (double step = 0.5 * kStripeStep; step > 0.01; step *= 0.5)
+    for (bool moved = true; moved;) {
+      moved = false;
+      for (const WaveVector& off : {WaveVector{step, 0.0}, WaveVector{-step, 0.0},
+                                    WaveVector{0.0, step}, WaveVector{0.0, -step}}) {
+        const WaveVector tried{wave[0] + off[0], wave[1] + off[1]};
+        const PlaneGain with = gain_of_stripes(values, width_mm, tried);
+        if (!(with.square > gain.square)) continue;
+        gain = with;
+        wave = tried;
+        moved = true;
+      }
+    }
+  // What takes out nearly all needs no comparison: the teeth let others look alike. (Waves as long
+  // as the gear look like ovality.)
+  constexpr double kNearlyAll = 0.7, kFewestOfThese = 2.0;
+  double all = 0.0;
+  for (const double um : values.um) all += um * um;
+  if (gain.square < kNearlyAll * all || std::hypot(wave[0], wave[1]) < kFewestOfThese)
+    for (std::size_t i = 0; i < grid.waves.size(); ++i)
+      if (kClearly * grid.square[i] > most && waves_apart(grid.waves[i], on_grid) > kBeside)
+        return {};
+  found.direction_deg = deg_from_rad(std::atan2(wave[1], wave[0]));
+  found.wavelength_mm = width_mm / std::hypot(wave[0], wave[1]);
+  found.amplitude_um = gain.amplitude_um;
+  found.square =
+      gain.square * static_cast<double>(values.rows) / static_cast<double>(values.um.size());
+  return found;
+}
 
 std::optional<PlaneWave> likeliest_plane_wave(const FlankGeometry& geometry,
                                               const Observations& table,
@@ -140,7 +230,7 @@ std::optional<PlaneWave> likeliest_plane_wave(const FlankGeometry& geometry,
                                               const std::vector<bool>& used) {
   constexpr double kClearly = 2.5;
   constexpr std::size_t kBeside = 4, kFiner = 9;
-  const PlaneValues values = gathered_in_plane(geometry, table, row_um, used);
+  const PlaneValues values = values_in_plane(geometry, table, row_um, used);
   if (values.um.size() < kFewestRowsAsked) return {};
   const double width_mm = 2.0 * geometry.reference_radius_mm();
   const auto count =

@@ -38,4 +38,19 @@ struct PlaneWave {
                                                             const std::vector<float>& row_um,
                                                             const std::vector<bool>& used);
 
+/// Stripes in any direction, along the normals, at all heights.
+struct PlaneStripes {
+  double direction_deg = 0.0, wavelength_mm = 0.0;
+  double p_value = 1.0;  ///< corrected for all directions and wavelengths
+  double square = 0.0;   ///< squares that they take out of all rows
+  double amplitude_um = 0.0;
+};
+
+/// The likeliest stripes in scanned flanks, from one wave over the gear to twelve, judged against
+/// stripes of other lengths and directions. None where others are nearly as strong.
+[[nodiscard]] std::optional<PlaneStripes> likeliest_plane_stripes(const FlankGeometry& geometry,
+                                                                  const Observations& table,
+                                                                  const std::vector<float>& row_um,
+                                                                  const std::vector<bool>& used);
+
 }  // namespace trueflank::loop

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The error of an axis of a machine that comes back with every turn of its screw or belt: all that
-// stands at one coordinate is shifted alike.
+// Forms of the transverse plane, the same at all heights. The error of an axis of a machine that
+// comes back with every turn of its screw or belt: all that stands at one coordinate is shifted
+// alike. Fringes of a projector: stripes in any direction.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "trueflank/loop/gear/effects/along_flank.h"
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/effects/sign_words.h"
 
 namespace trueflank::loop::gear_effects {
 namespace {
@@ -110,6 +112,48 @@ EffectFamily unnamed_plane_saw() {
                 ? ""
                 : std::string(", where the shift jumps ") + (told.sign() > 0 ? "up" : "down")) +
            source_of_shift(shape);
+  };
+  return f;
+}
+
+EffectFamily unnamed_plane_stripes() {
+  enum Stripes : std::size_t { kDirection, kLength };
+  EffectFamily f = described("unnamed_plane_stripes", {"direction_deg", "wavelength_mm"});
+  f.columns = [](const EffectShape&) { return 2; };
+  f.evaluate = [](const FlankGeometry&, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = c[1] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    const PlanePoint point = point_of(p);
+    const double direction = rad_from_deg(shape[kDirection]),
+                 angle = kTwoPi * (point.x * std::cos(direction) + point.y * std::sin(direction)) /
+                         shape[kLength];
+    c[0] = std::cos(angle);
+    c[1] = std::sin(angle);
+  };
+  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    // Along the stripes and across them the phase turns by these shares of a wave over the gear.
+    std::vector<EffectShape> shapes;
+    const double wide_mm = 2.0 * g.reference_radius_mm();
+    for (const double waves : {0.2, 0.07, 0.02, 0.007, 0.002})
+      for (const double sign : {-1.0, 1.0}) {
+        const double off = sign * waves / wide_mm, frequency = 1.0 / shape[kLength] + off;
+        shapes.push_back(shape);
+        shapes.back()[kDirection] += deg_from_rad(off * shape[kLength]);
+        if (!(frequency > 0.0)) continue;
+        shapes.push_back(shape);
+        shapes.back()[kLength] = 1.0 / frequency;
+      }
+    return shapes;
+  };
+  f.term_keys = {number("direction_deg"), number("wavelength_mm")};
+  f.words = [](const ToldForm& told) {
+    return printed(
+               "the flanks stand out and lie back in stripes of the plane, in waves %.4g mm long",
+               told.shape[kLength]) +
+           printed(" in the direction %.3g deg,",
+                   std::fmod(std::fmod(told.shape[kDirection], 180.0) + 180.0, 180.0)) +
+           " at all heights, as from the fringes that a scanner projects";
   };
   return f;
 }
