@@ -192,9 +192,8 @@ std::vector<RemainderFinding> forms_around(const PartModel& model, const CourseO
          {std::pair(FlankChoice::kBoth, 0.0), std::pair(FlankChoice::kBoth, 1.0),
           std::pair(FlankChoice::kLeft, 0.0), std::pair(FlankChoice::kRight, 0.0)}) {
       sets.push_back(slips_around(model.geometry.teeth(), flank, opposite));
-      constexpr int kFewestTeeth = 16;
-      if (model.geometry.teeth() < kFewestTeeth) continue;
-      for (std::vector<Effect>& set : slits_arches_bursts(model.geometry.teeth(), flank, opposite))
+      if (flank != FlankChoice::kBoth) continue;
+      for (std::vector<Effect>& set : slits_arches_bursts(model.geometry.teeth(), opposite))
         sets.push_back(std::move(set));
     }
   std::erase_if(sets, [](const std::vector<Effect>& set) { return set.empty(); });
@@ -250,15 +249,9 @@ std::vector<RemainderFinding> forms_around(const PartModel& model, const CourseO
                           (form.family == find_family("unnamed_sectors") ? kOfBlocks : 0.0);
       if (cost >= best.first) continue;
       best.first = cost;
-      // (slits, arches and bursts are asked of either flank, of both and opposite)
-      constexpr std::size_t kOfSlits = 12;
-      const std::size_t looks = (form.family == find_family("unnamed_slit") ||
-                                         form.family == find_family("unnamed_arch_around")
-                                     ? kOfSlits
-                                     : 1) *
-                                kMovedEach * set.size() * beside.size();
-      best.second.p_value = chance(square, values_of({form}, true) + values_of(names, true),
-                                   is_of_many(set) ? looks : tried);
+      best.second.p_value =
+          chance(square, values_of({form}, true) + values_of(names, true),
+                 is_of_many(set) ? kMovedEach * set.size() * beside.size() : tried);
       best.second.effect = std::move(form);
     }
     if (best.second.effect) found.push_back(std::move(best));
