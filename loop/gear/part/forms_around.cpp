@@ -192,7 +192,8 @@ std::vector<RemainderFinding> forms_around(const PartModel& model, const CourseO
          {std::pair(FlankChoice::kBoth, 0.0), std::pair(FlankChoice::kBoth, 1.0),
           std::pair(FlankChoice::kLeft, 0.0), std::pair(FlankChoice::kRight, 0.0)}) {
       sets.push_back(slips_around(model.geometry.teeth(), flank, opposite));
-      for (std::vector<Effect>& set : slits_arches_bursts(model.geometry.teeth(), flank, opposite))
+      if (flank != FlankChoice::kBoth) continue;
+      for (std::vector<Effect>& set : slits_arches_bursts(model.geometry.teeth(), opposite))
         sets.push_back(std::move(set));
     }
   std::erase_if(sets, [](const std::vector<Effect>& set) { return set.empty(); });
