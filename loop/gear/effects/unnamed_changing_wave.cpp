@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "trueflank/base/number_text.h"
@@ -43,9 +44,14 @@ EffectFamily unnamed_changing_wave() {
                   }});
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     std::vector<EffectShape> shapes;
+    // (a burst of fewer waves is a swelling)
+    constexpr double kFewestWaves = 1.2;
     const auto add = [&](std::size_t k, double value) {
-      shapes.push_back(shape);
-      shapes.back()[k] = value;
+      EffectShape other = shape;
+      other[k] = value;
+      if (shape[kCourse] != kBurst ||
+          2.0 * other[kWithin] * other[kPeriods] >= kFewestWaves * g.teeth())
+        shapes.push_back(std::move(other));
     };
     for (const double off : {-2.0, -1.0, 1.0, 2.0})
       add(kFirstTooth, std::fmod(shape[kFirstTooth] - 1.0 + off + g.teeth(), g.teeth()) + 1.0);

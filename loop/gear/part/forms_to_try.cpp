@@ -468,23 +468,26 @@ std::vector<Effect> slips_around(int teeth, FlankChoice flank, double opposite) 
   return forms;
 }
 
-std::vector<std::vector<Effect>> slits_arches_bursts(int z, FlankChoice flank, double opposite) {
-  constexpr int kMostPeriods = 30;
+std::vector<std::vector<Effect>> slits_arches_bursts(int z, double opposite) {
+  // (noise alone of fewer values looks like one of so many)
+  constexpr int kMostPeriods = 30, kFewestTeeth = 24;
   constexpr double kFewestWaves = 1.5, kBurst = 3.0;  // in a burst; the course of it
+  constexpr FlankChoice kFlank = FlankChoice::kBoth;
+  if (z < kFewestTeeth) return {};
   std::vector<std::vector<Effect>> sets(3);
-  for (int tooth = 1; tooth <= z; ++tooth) {
+  // (stress and a table that drifts move teeth, and no height)
+  for (int tooth = 1; opposite != 0.0 && tooth <= z; ++tooth) {
     for (const double within : {1.0, 1.7, 2.8, 4.6})
       if (5.0 * within <= z)
-        sets[0].push_back({find_family("unnamed_slit"), flank, {double(tooth), within, opposite}});
-    sets[1].push_back({find_family("unnamed_arch_around"), flank, {double(tooth), opposite}});
+        sets[0].push_back({find_family("unnamed_slit"), kFlank, {double(tooth), within, opposite}});
+    sets[1].push_back({find_family("unnamed_arch_around"), kFlank, {double(tooth), opposite}});
   }
-  if (flank != FlankChoice::kBoth) return sets;
   for (const double share : {0.06, 0.13})
     for (double periods = 3.0; 3.0 * periods <= z && periods <= kMostPeriods; periods += 1.0)
       for (int tooth = 1; 2.0 * share * periods >= kFewestWaves && tooth <= z;
            tooth += std::max(1, static_cast<int>(0.5 * share * z)))
         sets[2].push_back({find_family("unnamed_changing_wave"),
-                           flank,
+                           kFlank,
                            {periods, double(tooth), kBurst, share * z, opposite}});
   return sets;
 }

@@ -72,10 +72,9 @@ inline constexpr int kMostOfComb = 8;  ///< one tooth in so many, at most
 /// What slips over some teeth, and stays so up to the last tooth of the gear, to start from.
 [[nodiscard]] std::vector<Effect> slips_around(int teeth, FlankChoice flank, double opposite);
 
-/// Places that spring apart at a gap between two teeth, arches once around, and bursts of waves, to
-/// start from: a list of each.
-[[nodiscard]] std::vector<std::vector<Effect>> slits_arches_bursts(int teeth, FlankChoice flank,
-                                                                   double opposite);
+/// Of both flanks: places that spring apart at a gap between two teeth, arches once around, and
+/// bursts of waves, to start from: a list of each. None of few teeth.
+[[nodiscard]] std::vector<std::vector<Effect>> slits_arches_bursts(int teeth, double opposite);
 
 /// Bent axes, and axes with a kink to start from.
 [[nodiscard]] std::vector<Effect> bows_of_the_axis();
