@@ -62,6 +62,13 @@ double student_95(double degrees) {
   return find_root([&](double t) { return student_two_sided(t, degrees) - 0.05; }, 1.0, 20.0);
 }
 
+double skewed_tail(double x, double skewness) {
+  const double skew = std::max(0.05, skewness), degrees = 8.0 / (skew * skew);
+  const double chi = std::max(0.0, 1.0 + x * std::sqrt(2.0 / degrees)),
+               part = 2.0 / (9.0 * degrees);
+  return 0.5 * std::erfc((std::cbrt(chi) - 1.0 + part) / std::sqrt(2.0 * part));
+}
+
 double f_tail(double f, double degrees, double degrees_below) {
   if (!(f > 0.0)) return 1.0;
   return boost::math::ibeta(0.5 * degrees_below, 0.5 * degrees,

@@ -17,6 +17,10 @@ namespace trueflank::loop {
 /// in it, for tails longer than normal.
 [[nodiscard]] double normal_two_sided(double z, double excess = 0.0);
 
+/// P(a sum > x of its standard deviations) of one with this skewness, mean zero: Pearson's type
+/// III, Wilson and Hilferty's approximation. A skewness below 0.05 is taken as that.
+[[nodiscard]] double skewed_tail(double x, double skewness);
+
 /// P(F with these degrees of freedom > f). Accuracy: 1e-10.
 [[nodiscard]] double f_tail(double f, double degrees, double degrees_below);
 /// How likely chance alone sets the largest of sizes so far beyond the others, where the tail of such sizes falls

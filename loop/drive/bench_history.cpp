@@ -88,10 +88,17 @@ void note_history(std::vector<BenchPoint>& points) {
     // Rows that could not be used were taken too.
     const int step = starts ? 0 : std::max(1, points[i].line - points[i - 1].line);
     points[i].row = starts ? 0 : points[i - 1].row + step;
-    points[i].before = step == 1 ? static_cast<int>(i) - 1 : -1;
     points[i].since_turn =
         starts || points[i].forward != points[i - 1].forward ? 0 : points[i - 1].since_turn + step;
   }
+}
+
+void note_rows_before(std::vector<BenchPoint>& points) {
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i].before =
+        i > 0 && points[i].file == points[i - 1].file && points[i].row == points[i - 1].row + 1
+            ? static_cast<int>(i) - 1
+            : -1;
 }
 
 }  // namespace trueflank::loop

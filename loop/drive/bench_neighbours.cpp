@@ -10,6 +10,7 @@
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
+#include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/drive/bench_visits.h"
 
@@ -92,7 +93,7 @@ class Neighbours {
   void record(const std::vector<double>& orders) {
     const auto& points = table_.points;
     add_ranked("the speed", values_of(points, &BenchPoint::speed_rpm));
-    add_ranked("the load", loads_as_set());
+    add_ranked("the load", loads_as_set(points, set_point_));
     if (table_.has_temperature && table_.temperature_span_c > 3.0)
       add_ranked("the temperature", values_of(points, &BenchPoint::temperature_c));
     std::vector<double> before;
@@ -124,41 +125,6 @@ class Neighbours {
       }
       courses_.push_back(std::move(course));
     }
-  }
-
-  /// The loads, those of one level alike: what a driving torque misreads is in what is left as well,
-  /// and of rows of one level those near by would be those with the same error.
-  [[nodiscard]] std::vector<double> loads_as_set() const {
-    constexpr double kApart = 4.0;  // of what the loads of one set point scatter
-    const auto& points = table_.points;
-    std::map<int, std::vector<double>> loads;
-    for (std::size_t i = 0; i < points.size(); ++i)
-      loads[set_point_[i]].push_back(points[i].load_nm);
-    double square = 0.0, degrees = 0.0;
-    for (const auto& [point, of_point] : loads) {
-      const double n = static_cast<double>(of_point.size()),
-                   mean = std::accumulate(of_point.begin(), of_point.end(), 0.0) / n;
-      for (const double load : of_point) square += (load - mean) * (load - mean);
-      degrees += n - 1.0;
-    }
-    std::vector<std::size_t> order(points.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return points[a].load_nm < points[b].load_nm;
-    });
-    const double apart = degrees > 0.0 ? kApart * std::sqrt(square / degrees) : 0.0;
-    constexpr double kMostOfRange = 0.5;  // beyond, the loads stand at no levels
-    std::vector<double> level(points.size());
-    double inside = 0.0;  // of levels, together
-    for (std::size_t k = 0; k < order.size(); ++k) {
-      const double load = points[order[k]].load_nm,
-                   step = k > 0 ? load - points[order[k - 1]].load_nm : apart + 1.0;
-      level[order[k]] = step <= apart ? level[order[k - 1]] : load;
-      inside += step <= apart ? step : 0.0;
-    }
-    const double range =
-        order.empty() ? 0.0 : points[order.back()].load_nm - points[order.front()].load_nm;
-    return inside < kMostOfRange * range ? level : values_of(points, &BenchPoint::load_nm);
   }
 
   /// Where few levels were run rows of one level are equally near.
@@ -341,13 +307,6 @@ class Neighbours {
 };
 
 }  // namespace
-
-double skewed_tail(double x, double skewness) {
-  const double skew = std::max(0.05, skewness), degrees = 8.0 / (skew * skew);
-  const double chi = std::max(0.0, 1.0 + x * std::sqrt(2.0 / degrees)),
-               part = 2.0 / (9.0 * degrees);
-  return 0.5 * std::erfc((std::cbrt(chi) - 1.0 + part) / std::sqrt(2.0 * part));
-}
 
 SharedByNearRows ask_neighbours(const BenchTable& table, double ratio,
                                 const std::vector<double>& orders, const Eigen::VectorXd& left_nm) {

@@ -9,10 +9,6 @@
 
 namespace trueflank::loop {
 
-/// P(a sum > x of its standard deviations) of one with this skewness, mean zero: Pearson's type
-/// III, Wilson and Hilferty's approximation. A skewness below 0.05 is taken as that.
-[[nodiscard]] double skewed_tail(double x, double skewness);
-
 /// What rows that lie near each other over what was recorded have in common of what is left: a form
 /// that was not found, whatever its shape.
 struct SharedByNearRows {

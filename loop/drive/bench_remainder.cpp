@@ -14,7 +14,6 @@
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/order_statistics.h"
-#include "trueflank/loop/drive/bench_neighbours.h"
 
 namespace trueflank::loop {
 namespace {

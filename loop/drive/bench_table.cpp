@@ -122,6 +122,7 @@ class TableMaker {
     }
     for (std::size_t i = 0; i < table_.points.size(); ++i)
       if (std::isnan(table_.points[i].sigma_nm)) table_.points[i].sigma_nm = fit.sigma_nm[i];
+    note_rows_before(table_.points);
     assign_blocks(table_, fit);
     measure_extent(table_);
     if (swapped == Impossible::kNothing) look_for_gains();
@@ -312,7 +313,7 @@ class TableMaker {
         for (std::size_t j = 0; j < table_.points.size(); ++j)
           if (table_.points[j].forward == table_.points[i].forward &&
               std::find(out.begin(), out.end(), j) == out.end())
-            others.emplace_back(apart(table_.points[i], table_.points[j]), j);
+            others.emplace_back(apart(i, j), j);
         const std::size_t near = std::min(kNeighbours, others.size());
         std::partial_sort(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(near),
                           others.end());
@@ -326,19 +327,21 @@ class TableMaker {
       }
       return sum > kSure * std::sqrt(count);
     };
+    const auto surely_over = [&](const std::vector<double>& quantity) {
+      return surely(
+          [&](std::size_t i, std::size_t j) { return std::abs(quantity[i] - quantity[j]); });
+    };
+    const std::vector<BenchPoint>& points = table_.points;
     return std::any_of(orders.begin(), orders.end(),
                        [&](double order) {
-                         return surely([&](const BenchPoint& a, const BenchPoint& b) {
-                           const double turns = order * (a.angle_rad - b.angle_rad) / kTwoPi;
+                         return surely([&](std::size_t i, std::size_t j) {
+                           const double turns =
+                               order * (points[i].angle_rad - points[j].angle_rad) / kTwoPi;
                            return std::abs(turns - std::round(turns));
                          });
                        }) ||
-           surely([](const BenchPoint& a, const BenchPoint& b) {
-             return std::abs(a.speed_rpm - b.speed_rpm);
-           }) ||
-           surely([](const BenchPoint& a, const BenchPoint& b) {
-             return std::abs(a.load_nm - b.load_nm);
-           });
+           surely_over(values_of(points, &BenchPoint::speed_rpm)) ||
+           surely_over(loads_as_set(points, set_points_of(points)));
   }
 
   void look_for_gains() {

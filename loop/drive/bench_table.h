@@ -42,7 +42,7 @@ struct BenchPoint {
   /// How far the load and the speed have moved since they turned, of the largest.
   double moved = 0.0, speed_moved = 0.0;
   int row = 0;                 ///< of its file, from 0 on, with the rows that were left out
-  /// Of the points the one that was taken right before; -1: none was, or it was left out.
+  /// Of BenchTable::row_before(); -1: none was taken right before, or it was left out.
   int before = -1;
   int since_turn = 0;          ///< rows since the direction changed or the file began
   /// DriveContext::speed_coordinate() of a speed, once computed: every shape that is tried asks it.
@@ -76,7 +76,15 @@ struct BenchTable {
   std::string impossible_text;  ///< one sentence: where, and how far
   std::vector<std::string> notes;
 
+  /// Of a table of some rows: all of them, which must outlive it.
+  const std::vector<BenchPoint>* all_points = nullptr;
+
   [[nodiscard]] bool has(bool forward) const;
+  /// The row that was taken right before; nullptr: none was, or it was left out.
+  [[nodiscard]] const BenchPoint* row_before(const BenchPoint& p) const {
+    const std::vector<BenchPoint>& all = all_points != nullptr ? *all_points : points;
+    return p.before < 0 ? nullptr : &all[static_cast<std::size_t>(p.before)];
+  }
 };
 
 inline constexpr int kBenchFolds = 8;

@@ -188,6 +188,39 @@ double correlation_of_visits(const Eigen::VectorXd& size, const std::vector<int>
   return std::clamp(product / kept / (error.squaredNorm() / freedom), -1.0, 1.0);
 }
 
+std::vector<double> loads_as_set(const std::vector<BenchPoint>& points,
+                                 const std::vector<int>& set_point) {
+  constexpr double kApart = 4.0;  // of what the loads of one set point scatter
+  std::map<int, std::vector<double>> loads;
+  for (std::size_t i = 0; i < points.size(); ++i) loads[set_point[i]].push_back(points[i].load_nm);
+  double square = 0.0, degrees = 0.0;
+  for (const auto& [point, of_point] : loads) {
+    const double n = static_cast<double>(of_point.size()),
+                 mean = std::accumulate(of_point.begin(), of_point.end(), 0.0) / n;
+    for (const double load : of_point) square += (load - mean) * (load - mean);
+    degrees += n - 1.0;
+  }
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return points[a].load_nm < points[b].load_nm; });
+  if (order.empty()) return {};
+  constexpr double kOneLoad = 0.03;  // of the largest
+  const double least = points[order.front()].load_nm, most = points[order.back()].load_nm;
+  if (most - least <= kOneLoad * std::abs(most)) return std::vector<double>(points.size(), most);
+  const double apart = degrees > 0.0 ? kApart * std::sqrt(square / degrees) : 0.0;
+  constexpr double kMostOfRange = 0.5;  // beyond, the loads stand at no levels
+  std::vector<double> level(points.size());
+  double inside = 0.0;  // of levels, together
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const double load = points[order[k]].load_nm,
+                 step = k > 0 ? load - points[order[k - 1]].load_nm : apart + 1.0;
+    level[order[k]] = step <= apart ? level[order[k - 1]] : load;
+    inside += step <= apart ? step : 0.0;
+  }
+  return inside < kMostOfRange * (most - least) ? level : values_of(points, &BenchPoint::load_nm);
+}
+
 PartsOfRun::PartsOfRun(const std::vector<double>& column, const std::vector<double>& value,
                        FirstLevel first)
     : first_(first) {

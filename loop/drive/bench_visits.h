@@ -54,6 +54,12 @@ void take_means(Eigen::VectorXd& values, const std::vector<int>& cell);
 void take_slow(Eigen::VectorXd& values, int waves);
 /// @}
 
+/// The loads, those of one level alike: what a driving torque misreads is in what is left as well,
+/// and of rows of one level those near by would be those with the same error. Where they stand at
+/// no levels, each its own.
+[[nodiscard]] std::vector<double> loads_as_set(const std::vector<BenchPoint>& points,
+                                               const std::vector<int>& set_point);
+
 /// Whether a series has a level before it first changes.
 enum class FirstLevel { kNothing, kAny };
 
@@ -80,5 +86,7 @@ class PartsOfRun {
 /// ago the direction changed. A load must move by a fortieth of the largest to have turned; a dwell
 /// at the turn is half of the way before and half of the one after.
 void note_history(std::vector<BenchPoint>& points);
+/// Notes of every row the one that was taken right before it. Once no more rows are left out.
+void note_rows_before(std::vector<BenchPoint>& points);
 
 }  // namespace trueflank::loop

@@ -226,6 +226,8 @@ class DriveSelection {
   [[nodiscard]] bool is_denied(DriveOutcome outcome);
   /// Two levels far apart, of which every row may have either.
   void tell_as_scattered_states(DriveOutcome& outcome);
+  /// The names that may stand beside levels: none that changes over the run.
+  [[nodiscard]] static OneForm names_beside_levels(const DriveOutcome& outcome, bool with_drag);
   /// Levels that are new after every jump of the run, in place of all that follows the run.
   void tell_as_levels_of_the_run(DriveOutcome& outcome);
   /// `with_places`: also where a loss begins, jumps or stands out.

@@ -11,7 +11,8 @@
 namespace trueflank::loop {
 namespace {
 
-/// One row out of every stretch of equal length, at a place of it that follows no period.
+/// One row out of every stretch of equal length, at a place of it that follows no period. `table`
+/// must outlive them.
 BenchTable some_rows_of(const BenchTable& table, std::size_t most) {
   constexpr double kGolden = 0.6180339887498949;
   BenchTable some = table;
@@ -27,6 +28,7 @@ BenchTable some_rows_of(const BenchTable& table, std::size_t most) {
     some.points.push_back(point);
   }
   some.units = static_cast<int>(units.size());
+  if (some.all_points == nullptr) some.all_points = &table.points;
   return some;
 }
 

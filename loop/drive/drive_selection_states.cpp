@@ -16,7 +16,7 @@ namespace {
 /// Of a set that holds what is there at times, by chance: what says when costs as much as chance
 /// takes off where every row may be either.
 double cost_of_changes(double rows, double changes) {
-  if (!(changes > 0.0)) return 0.0;
+  if (changes == 0.0) return 0.0;
   const double often = std::clamp(changes / rows, 1.0 / rows, 0.5);
   return -2.0 * rows * (often * std::log(often) + (1.0 - often) * std::log(1.0 - often));
 }
@@ -37,7 +37,43 @@ double alike_in_order(const DriveContext& context, const Eigen::VectorXd& left, 
   return square > 0.0 ? std::clamp(product / square + (1.0 + figures) / rows, 0.0, 0.95) : 0.0;
 }
 
+/// True of levels of which every second one is the same: what is there at times, and at times not.
+bool goes_to_and_fro(const std::vector<double>& levels) {
+  constexpr std::size_t kFewest = 4;
+  constexpr double kSame = 0.25;  // of how far they reach
+  if (levels.size() < kFewest) return false;
+  const auto [low, high] = std::minmax_element(levels.begin(), levels.end());
+  for (std::size_t k = 2; k < levels.size(); ++k)
+    if (std::abs(levels[k] - levels[k - 2]) > kSame * (*high - *low)) return false;
+  return true;
+}
+
+/// Where in the run what stands in a part of it, or jumps in its course, begins and ends.
+double changes_in_run(const std::vector<DriveEffect>& effects) {
+  constexpr std::size_t kOrderOfSpell = 1;  // 0: of the run
+  double changes = 0.0;
+  for (const DriveEffect& e : effects)
+    if (e.family->jumps_in_run)
+      changes += 1.0;
+    else if (e.family->shape_of_spell && e.shape[kOrderOfSpell] == 0.0)
+      changes += 2.0;
+  return changes;
+}
+
 }  // namespace
+
+DriveSelection::OneForm DriveSelection::names_beside_levels(const DriveOutcome& outcome,
+                                                            bool with_drag) {
+  OneForm set;
+  for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
+    const DriveFamily& f = *outcome.effects[e].family;
+    if (!f.named || f.drifts || f.follows_the_run || (!with_drag && f.follows == "nothing"))
+      continue;
+    set.effects.push_back(outcome.effects[e]);
+    set.from.push_back(static_cast<int>(e));
+  }
+  return set;
+}
 
 void DriveSelection::tell_as_scattered_states(DriveOutcome& outcome) {
   constexpr double kClearly = 20.0, kMostLeft = 0.5;
@@ -48,14 +84,7 @@ void DriveSelection::tell_as_scattered_states(DriveOutcome& outcome) {
   OneForm best;
   double least = 1e300, noise = now.square / std::max(1.0, outcome.rows - now.size);
   for (const bool with_drag : {false, true}) {
-    OneForm set;
-    for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
-      const DriveFamily& f = *outcome.effects[e].family;
-      if (!f.named || f.drifts || f.follows_the_run || (!with_drag && f.follows == "nothing"))
-        continue;
-      set.effects.push_back(outcome.effects[e]);
-      set.from.push_back(static_cast<int>(e));
-    }
+    OneForm set = names_beside_levels(outcome, with_drag);
     const DriveContext here = context();
     LikeliestStates states;
     Eigen::VectorXd left =
@@ -86,29 +115,6 @@ void DriveSelection::tell_as_scattered_states(DriveOutcome& outcome) {
   exchange_as_sure(outcome, best, gain);
 }
 
-namespace {
-
-/// True of levels of which every second one is the same: what is there at times, and at times not.
-bool goes_to_and_fro(const std::vector<double>& levels) {
-  constexpr std::size_t kFewest = 4;
-  constexpr double kSame = 0.25;  // of how far they reach
-  if (levels.size() < kFewest) return false;
-  const auto [low, high] = std::minmax_element(levels.begin(), levels.end());
-  for (std::size_t k = 2; k < levels.size(); ++k)
-    if (std::abs(levels[k] - levels[k - 2]) > kSame * (*high - *low)) return false;
-  return true;
-}
-
-/// Where in the run what stands in a part of it, or jumps in its course, begins and ends.
-double changes_in_run(const std::vector<DriveEffect>& effects) {
-  double changes = 0.0;
-  for (const DriveEffect& e : effects)
-    changes += e.family->shape_of_spell ? 2.0 : e.family->jumps_in_run ? 1.0 : 0.0;
-  return changes;
-}
-
-}  // namespace
-
 void DriveSelection::tell_as_levels_of_the_run(DriveOutcome& outcome) {
   constexpr double kClearly = 30.0, kAsOne = 4.0, kMostLeft = 0.8;
   constexpr std::size_t kFewestLevels = 2, kMostLevels = 12;
@@ -121,14 +127,7 @@ void DriveSelection::tell_as_levels_of_the_run(DriveOutcome& outcome) {
     if (!family.shape_of_levels || !may_be_there(family) || (family.is_loss && !both)) continue;
     const double what = family.is_loss ? drive_effects::kDrag : drive_effects::kOutputReads;
     for (const bool with_drag : {false, true}) {
-      OneForm set;
-      for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
-        const DriveFamily& f = *outcome.effects[e].family;
-        if (!f.named || f.drifts || f.follows_the_run || (!with_drag && f.follows == "nothing"))
-          continue;
-        set.effects.push_back(outcome.effects[e]);
-        set.from.push_back(static_cast<int>(e));
-      }
+      OneForm set = names_beside_levels(outcome, with_drag);
       const DriveContext here = context();
       Eigen::VectorXd left =
           value_ - DriveFit(here, value_, set.effects, FitRows::kTraining).explained_nm();

@@ -184,10 +184,11 @@ class PartScan {
   /// the spectrum of all.
   [[nodiscard]] std::map<Eigen::Index, Eigen::Index> likely_lines() const {
     std::set<Eigen::Index> likely;
+    constexpr int kMostMultiples = 14;
     for (const MemberOrder& member : context_.model.orders)
-      for (double order = member.order; order > 0.0 && order <= kHighestOfParts;
-           order += member.order)
-        likely.insert(static_cast<Eigen::Index>((order - first_) / step_ + 0.5));
+      for (int times = 1; times <= kMostMultiples; ++times)
+        if (const double order = times * member.order; order >= first_ && order <= kHighestOfParts)
+          likely.insert(static_cast<Eigen::Index>((order - first_) / step_ + 0.5));
     for (const bool forward : {true, false}) add_peaks(forward, likely);
     std::map<Eigen::Index, Eigen::Index> runs;
     Eigen::Index end = 0;

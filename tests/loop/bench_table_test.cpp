@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "tests/loop/drawn_bench.h"
 #include "tests/loop/sample_bench.h"
 #include "trueflank/design/kinds/train_kind.h"
 #include "trueflank/loop/drive/bench_table.h"
@@ -223,6 +224,24 @@ TEST(BenchTable, RowsFarOffThatComeAgainAtOneSetPointAreNoSlips) {
     ASSERT_TRUE(table);
     EXPECT_EQ(table->outliers, every_time ? 0 : 1);
   }
+}
+
+TEST(BenchTable, ARowBeforeIsTheOneThatWasTakenBeforeThoughAnotherWasLeftOut) {
+  DrawnBench bench = any_rows(3, true);
+  loop::BenchData data = bench.data([](const DrawnRow&) { return 0.0; });
+  data.rows[40].output_nm *= 1.5;
+  const auto table = loop::make_bench_table(bench.model(), data);
+  ASSERT_TRUE(table);
+  ASSERT_EQ(table->outliers, 1);
+  int without = 0;
+  for (const loop::BenchPoint& p : table->points) {
+    const loop::BenchPoint* const before = table->row_before(p);
+    if (before == nullptr)
+      ++without;
+    else
+      ASSERT_EQ(before->row, p.row - 1) << p.line;
+  }
+  EXPECT_EQ(without, 2);  // the first one, and the one after the slip
 }
 
 TEST(BenchFile, OutliersAreLeftOutByFileAndLine) {

@@ -247,4 +247,12 @@ double place_of(const DrawnBench& bench, double share, const Quantity& quantity)
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size()))];
 }
 
+/// What the output reads too much where every row still holds this share of the row before.
+inline DrawnBench::Loss held_of_the_row_before(const DrawnBench& bench, double share) {
+  return [&bench, share](const DrawnRow& r) {
+    const auto at = static_cast<std::size_t>(r.row);
+    return at == 0 ? 0.0 : share * (bench.rows[at - 1].output_nm - r.output_nm);
+  };
+}
+
 }  // namespace trueflank::test

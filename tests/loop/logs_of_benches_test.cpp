@@ -39,6 +39,20 @@ TEST(LogsOfBenches, AWaveOfAPartOfTheRunIsOneForm) {
   });
 }
 
+// The rows before are not among those on which it is sought.
+TEST(LogsOfBenches, AShareOfTheRowBeforeIsOneForm) {
+  expect_all(7830, survey_size(1, 4), [](Answers& answers, std::uint64_t seed) {
+    DrawnBench bench = any_rows(seed, false, 3000);
+    const double share = bench.between(0.04, 0.08);
+    const auto closed = loop::close_drive_loop(
+        bench.model(),
+        bench.data([](const DrawnRow&) { return 0.0; }, 0.1, held_of_the_row_before(bench, share)));
+    answers.add(
+        seed, std::to_string(100.0 * share) + " %", closed,
+        leaves_noise(closed, bench) && is_told_once(closed, "share_percent", 100.0 * share));
+  });
+}
+
 // A tenth of a row's scatter: a thousand rows do not show it.
 TEST(LogsOfBenches, ADragThatOnlyManyRowsShowIsFound) {
   expect_all(7840, survey_size(1, 4), [](Answers& answers, std::uint64_t seed) {

@@ -79,11 +79,7 @@ TEST(SwitchedLossesOnBenches, AShareOfTheRowBeforeIsOneForm) {
     const double share = bench.between(0.02, 0.06);
     const auto closed = loop::close_drive_loop(
         bench.model(),
-        bench.data([](const DrawnRow&) { return 0.0; }, 0.1,
-                   [&](const DrawnRow& r) {
-                     const auto at = static_cast<std::size_t>(r.row);
-                     return at == 0 ? 0.0 : share * (bench.rows[at - 1].output_nm - r.output_nm);
-                   }));
+        bench.data([](const DrawnRow&) { return 0.0; }, 0.1, held_of_the_row_before(bench, share)));
     answers.add(seed, std::to_string(100.0 * share) + " %", closed,
                 leaves_noise(closed, bench) &&
                     is_told_once(closed, "share_percent", 100.0 * share) &&

@@ -148,6 +148,10 @@ DriveFamily reading_without_a_name() {
   return f;
 }
 
+std::vector<DriveShape> terms_of_reading(double what) {
+  return {{what == double(kOutputGain) ? 1.0 : 0.0, 0.0, 0.0, 0.0, 1.0}};
+}
+
 std::vector<double> directions_alone(const DriveContext& context) {
   return context.table.has(true) && context.table.has(false) ? std::vector{0.0, 1.0, 2.0}
                                                              : std::vector{0.0};

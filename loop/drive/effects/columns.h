@@ -151,6 +151,8 @@ inline constexpr const char* kNoLoss = " (the same sign in both directions: a re
 [[nodiscard]] std::string reads_in_words(const Parameter& figure);
 /// A family of what a sensor of the output reads wrong, with one amount.
 [[nodiscard]] DriveFamily reading_without_a_name();
+/// term_shapes of a reading of the output, or of its gain (What).
+[[nodiscard]] std::vector<DriveShape> terms_of_reading(double what);
 
 /// A figure whose interval is not known yet.
 [[nodiscard]] Parameter figure_of(const std::string& name, double value);

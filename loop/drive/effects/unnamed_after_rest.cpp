@@ -51,9 +51,11 @@ std::string lines_of_rests(const DriveContext& context, const DriveShape& s) {
   return text;
 }
 
-/// What takes longer than the time to the next rest is a sawtooth, and no rest.
+/// What dies away more slowly is a sawtooth; near to that it is odd. Of the rows to the next rest.
+constexpr double kSlowest = 0.6, kOddlySlow = 0.5;
+
 double rows_it_takes(const DriveShape& s) {
-  return s[kRestPeriod] > 0.0 ? std::min(s[kRestRows], 0.6 * s[kRestPeriod]) : s[kRestRows];
+  return s[kRestPeriod] > 0.0 ? std::min(s[kRestRows], kSlowest * s[kRestPeriod]) : s[kRestRows];
 }
 
 }  // namespace
@@ -106,8 +108,7 @@ DriveFamily unnamed_after_rest() {
   };
   f.kind = [](const DriveShape& s) { return s[kRestPeriod] == 0.0 ? 1 : 0; };
   f.is_odd = [](const DriveShape& s) {
-    constexpr double kMost = 0.5;
-    return s[kRestPeriod] > 0.0 && s[kRestRows] > kMost * s[kRestPeriod];
+    return s[kRestPeriod] > 0.0 && s[kRestRows] > kOddlySlow * s[kRestPeriod];
   };
   f.kin_shapes = [](const DriveShape& s) {
     std::vector<DriveShape> kin{s};

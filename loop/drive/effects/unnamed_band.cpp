@@ -124,11 +124,7 @@ DriveFamily band(bool reads) {
     return std::string(s[kBandOutside] != 0.0 ? "outside" : "in") + " a band of the " +
            name_of_range(s[kBandOver]) + " alone";
   };
-  if (reads)
-    f.term_shapes = [](const DriveShape& s) {
-      return std::vector<DriveShape>{
-          {s[kBandOf] == double(kOutputGain) ? 1.0 : 0.0, 0.0, 0.0, 0.0, 1.0}};
-    };
+  if (reads) f.term_shapes = [](const DriveShape& s) { return terms_of_reading(s[kBandOf]); };
   return f;
 }
 

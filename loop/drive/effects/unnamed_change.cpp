@@ -258,11 +258,7 @@ DriveFamily jump(bool reading) {
       text += " at line " + std::to_string(row->line);
     return text + of_what(shape[kJumpOf]);
   };
-  if (reading)
-    f.term_shapes = [](const DriveShape& s) {
-      return std::vector<DriveShape>{
-          {s[kJumpOf] == double(kOutputGain) ? 1.0 : 0.0, 0.0, 0.0, 0.0, 1.0}};
-    };
+  if (reading) f.term_shapes = [](const DriveShape& s) { return terms_of_reading(s[kJumpOf]); };
   return f;
 }
 

@@ -30,9 +30,10 @@ double driven_as_it_was(const DriveContext& context, const BenchPoint& p) {
 /// Change of the driven torque where the side's reading goes all the way back to the row before.
 double all_of_the_row_before(const DriveContext& context, const BenchPoint& p,
                              const DriveShape& s) {
-  if (p.before < 0) return 0.0;
+  const BenchPoint* const taken_before = context.table.row_before(p);
+  if (taken_before == nullptr) return 0.0;
   const Lags who = who_lags(s);
-  BenchPoint before = context.table.points[static_cast<std::size_t>(p.before)];
+  BenchPoint before = *taken_before;
   if (s[kLagAsItWas] != 0.0) before.driven_nm = driven_as_it_was(context, before);
   const bool of_driven = who == Lags::kDriven || (who == Lags::kOutput && p.forward) ||
                          (who == Lags::kInput && !p.forward);

@@ -119,10 +119,7 @@ DriveFamily levels_of_run_family(bool reads) {
     return std::string(
         "that jumps more than once in the course of the run, each time to a new level");
   };
-  if (reads)
-    f.term_shapes = [](const DriveShape&) {
-      return std::vector<DriveShape>{{0.0, 0.0, 0.0, 0.0, 1.0}};
-    };
+  if (reads) f.term_shapes = [](const DriveShape& s) { return terms_of_reading(s[0]); };
   return f;
 }
 

@@ -102,11 +102,7 @@ DriveFamily rows_by_turns(bool reads) {
   f.words = [](const DriveModel&, const DriveShape&, const DriveContext*) {
     return std::string("that goes by turns of the rows");
   };
-  if (reads)
-    f.term_shapes = [](const DriveShape& s) {
-      return std::vector<DriveShape>{
-          {s[kRowsOf] == double(kOutputGain) ? 1.0 : 0.0, 0.0, 0.0, 0.0, 1.0}};
-    };
+  if (reads) f.term_shapes = [](const DriveShape& s) { return terms_of_reading(s[kRowsOf]); };
   return f;
 }
 
@@ -219,11 +215,7 @@ DriveFamily block(bool reads) {
                           " to line " + std::to_string(line_before(context->table, s[kBlockTo]))
                     : std::string());
   };
-  if (reads)
-    f.term_shapes = [](const DriveShape& s) {
-      return std::vector<DriveShape>{
-          {s[kBlockOf] == double(kOutputGain) ? 1.0 : 0.0, 0.0, 0.0, 0.0, 1.0}};
-    };
+  if (reads) f.term_shapes = [](const DriveShape& s) { return terms_of_reading(s[kBlockOf]); };
   return f;
 }
 
@@ -357,11 +349,7 @@ DriveFamily row_sawtooth(bool reads) {
   f.words = [](const DriveModel&, const DriveShape&, const DriveContext*) {
     return std::string("in a sawtooth over the rows of the run");
   };
-  if (reads)
-    f.term_shapes = [](const DriveShape& s) {
-      return std::vector<DriveShape>{
-          {s[kRowSawOf] == double(kOutputGain) ? 1.0 : 0.0, 0.0, 0.0, 0.0, 1.0}};
-    };
+  if (reads) f.term_shapes = [](const DriveShape& s) { return terms_of_reading(s[kRowSawOf]); };
   return f;
 }
 

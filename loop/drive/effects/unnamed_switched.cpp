@@ -219,11 +219,7 @@ DriveFamily switched(bool reads) {
     return std::string("that the ") + name_of_range(s[kSwitchedOver]) +
            " turns on and off, at two values";
   };
-  if (reads)
-    f.term_shapes = [](const DriveShape& s) {
-      return std::vector<DriveShape>{
-          {s[kSwitchedOf] == double(kOutputGain) ? 1.0 : 0.0, 0.0, 0.0, 0.0, 1.0}};
-    };
+  if (reads) f.term_shapes = [](const DriveShape& s) { return terms_of_reading(s[kSwitchedOf]); };
   return f;
 }
 
