@@ -202,6 +202,8 @@ struct DriveFamily : EffectFacts {
   /// @{
   std::function<double(const DriveContext&)> base = {};  ///< added to the coefficient in the report
   std::function<std::vector<DriveReference>(const DriveContext&)> references = {};
+  /// Of its size, as a formula: told after the description.
+  std::string law = {};
   /// Added to the description, of which mesh or order it is.
   std::function<std::string(const DriveModel&, const DriveShape&)> detail = {};
   /// In words, with figures of the bench where a context is given; empty: its id.

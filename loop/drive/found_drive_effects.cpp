@@ -376,6 +376,8 @@ class Describer {
           "changed meanwhile would look the same";
     }
     found.sentence = sentence(found, members);
+    if (const std::string& law = s_.all.effects()[members.front()].family->law; !law.empty())
+      found.description += ": " + law;
   }
 
   /// True of a form over the temperature that has no name.

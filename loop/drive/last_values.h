@@ -31,23 +31,30 @@ class LastValues {
   std::size_t next_ = 0;
 };
 
-/// In which rows something is there, of the figures that were asked last: what a row has depends on
-/// the rows before it. Not for several threads.
+/// In which rows something is there, of the few figures that were asked last: what a row has
+/// depends on the rows before it, and a model with two such effects asks for both at every row. Not
+/// for several threads.
 class LastRows {
  public:
   template <class Function>
   [[nodiscard]] const std::vector<char>& of(const std::vector<double>& figures,
                                             const Function& function) {
-    if (figures != figures_ || rows_.empty()) {
-      rows_ = function();
-      figures_ = figures;
-    }
-    return rows_;
+    for (const Kept& one : kept_)
+      if (one.is_known && one.figures == figures) return one.rows;
+    Kept& one = kept_[next_];
+    one = {true, figures, function()};
+    next_ = (next_ + 1) % kept_.size();
+    return one.rows;
   }
 
  private:
-  std::vector<double> figures_;
-  std::vector<char> rows_;
+  struct Kept {
+    bool is_known = false;
+    std::vector<double> figures = {};
+    std::vector<char> rows = {};
+  };
+  std::array<Kept, 4> kept_ = {};
+  std::size_t next_ = 0;
 };
 
 }  // namespace trueflank::loop

@@ -55,44 +55,20 @@ struct OfSide {
 using TraceKey = std::array<int, 4>;
 using Traces = std::map<TraceKey, std::vector<TracePoint>>;
 
-/// A value of a trace, and where the trace stands across its direction, -1 ... 1.
-struct PlacedValue {
-  double across = 0.0;
-  TracePoint point;
-};
-
-/// Traces of a flank that share a zero, apart: between them lies more than within one.
-std::vector<std::vector<TracePoint>> traces_apart(std::vector<PlacedValue> values) {
-  constexpr double kApart = 0.05;
-  std::stable_sort(values.begin(), values.end(),
-                   [](const auto& a, const auto& b) { return a.across < b.across; });
-  std::vector<std::vector<TracePoint>> traces;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (i == 0 || values[i].across - values[i - 1].across > kApart) traces.emplace_back();
-    traces.back().push_back(values[i].point);
-  }
-  return traces;
-}
-
 /// Traces of one kind of record, or of the scan's mean traces where there are none.
 Traces traces_of(const GearLoop& closed, const ResidualGrid& grid, bool profile) {
   const FlankGeometry& g = closed.geometry;
   const ObservationKind kind = profile ? ObservationKind::kProfile : ObservationKind::kHelix;
   Traces traces;
-  std::map<std::array<int, 3>, std::vector<PlacedValue>> measured;
+  std::map<std::array<int, 4>, std::vector<TracePoint>> measured;  // tooth, side, zero, line
   for (std::size_t i = 0; i < closed.table.rows.size(); ++i) {
     const Observation& row = closed.table.rows[i];
     if (row.kind != kind) continue;
     const Place& place = closed.table.place(row);
-    measured[{place.tooth, place.side > 0 ? 1 : 0, row.trace}].push_back(
-        {profile ? g.face_coordinate(place.z_mm) : g.profile_coordinate(place.roll_mm),
-         {profile ? place.roll_mm : place.z_mm, closed.before_um[i]}});
+    measured[{place.tooth, place.side > 0 ? 1 : 0, row.trace, row.line}].push_back(
+        {profile ? place.roll_mm : place.z_mm, closed.before_um[i]});
   }
-  for (auto& [key, values] : measured) {
-    int number = 0;
-    for (auto& trace : traces_apart(std::move(values)))
-      traces[{key[0], key[1], key[2], number++}] = std::move(trace);
-  }
+  for (auto& [key, values] : measured) traces[key] = std::move(values);
   if (traces.empty()) {
     const double start = profile ? g.root_form_roll_mm() : 0.0;
     const double length = profile ? g.tip_form_roll_mm() - start : g.face_width_mm();

@@ -15,6 +15,7 @@
 #include "trueflank/geometry/tooth_span.h"
 #include "trueflank/loop/gear/local/measured_lands.h"
 #include "trueflank/loop/gear/table/canonical_order.h"
+#include "trueflank/loop/gear/table/lines_across.h"
 #include "trueflank/loop/gear/table/outliers.h"
 #include "trueflank/loop/gear/table/size_scatter.h"
 #include "trueflank/loop/gear/table/trace_zeros.h"
@@ -519,6 +520,7 @@ ResultAll<Observations> make_observations(const FlankGeometry& geometry, Measure
   builder.refuse_too_many_single_values();
   if (!builder.errors.empty()) return fail_all(std::move(builder.errors));
   builder.put_rows_in_order();
+  number_lines(geometry, builder.table);
   builder.widen_size_errors();
   leave_out_outliers(geometry, builder.table);
   return std::move(builder.table);

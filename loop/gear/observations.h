@@ -36,6 +36,7 @@ struct Observation {
   int source = 0;  ///< scan or file it came from
   std::uint16_t places = 1;
   ObservationKind kind = ObservationKind::kScanFlank;
+  std::uint8_t line = 0;  ///< of a trace among those of its flank (lines_across.h)
 };
 static_assert(sizeof(Observation) == 32);
 

@@ -277,7 +277,7 @@ double variance_beside(const std::array<std::map<int, double>, 2>& sides, const 
 }
 
 struct Gathered {
-  std::map<std::pair<int, int>, Whole> wholes;  ///< traces, of side and trace or tooth
+  std::map<std::array<int, 3>, Whole> wholes;  ///< traces, of side, trace or tooth, line
   std::array<std::map<int, double>, 2> around;
   double squares = 0.0, count = 0.0, held_out = 0.0;
   int teeth = 0;  ///< of the gear
@@ -334,7 +334,7 @@ Variance variance_of(ObservationKind kind, Gathered& data, const WhatIsLeft& lef
   }
   std::array<std::vector<Whole*>, 2> of_flank;
   for (auto& [key, whole] : data.wholes)
-    of_flank[static_cast<std::size_t>(key.first)].push_back(&whole);
+    of_flank[static_cast<std::size_t>(key[0])].push_back(&whole);
   SumOfSides sum;
   for (std::vector<Whole*>& flank : of_flank) {
     if (flank.empty()) continue;
@@ -385,9 +385,9 @@ void add_to(Gathered& data, const FlankGeometry& geometry, const Observation& ro
   }
   // A trace runs along one direction; the other stands still.
   const bool helix = row.kind == ObservationKind::kHelix;
-  data.wholes[{static_cast<int>(side), row.trace >= 0 ? row.trace : place.tooth}].push_back(
-      {helix ? 0.0 : geometry.profile_coordinate(place.roll_mm),
-       helix ? geometry.face_coordinate(place.z_mm) : 0.0, um, held_out});
+  data.wholes[{static_cast<int>(side), row.trace >= 0 ? row.trace : place.tooth, row.line}]
+      .push_back({helix ? 0.0 : geometry.profile_coordinate(place.roll_mm),
+                  helix ? geometry.face_coordinate(place.z_mm) : 0.0, um, held_out});
 }
 
 }  // namespace

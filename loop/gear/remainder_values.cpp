@@ -155,10 +155,11 @@ class Gathering {
   void add_to_courses(std::size_t i, double um, std::map<CourseKey, Courses>& courses) {
     const Observation& row = table_.rows[i];
     const Place& place = table_.place(row);
+    constexpr int kMostLines = 256;
     const bool helix = row.kind == ObservationKind::kHelix;
-    courses[{row.source, row.kind, helix}].add(place.side > 0 ? 1 : 0,
-                                               row.trace >= 0 ? row.trace : place.tooth,
-                                               place.tooth, helix ? place.z_mm : place.roll_mm, um);
+    const int course = (row.trace >= 0 ? row.trace : place.tooth) * kMostLines + row.line;
+    courses[{row.source, row.kind, helix}].add(place.side > 0 ? 1 : 0, course, place.tooth,
+                                               helix ? place.z_mm : place.roll_mm, um);
   }
 
   /// Of values that are no scan's.

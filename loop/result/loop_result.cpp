@@ -177,10 +177,15 @@ std::pair<std::string, std::string> name_and_unit(const std::string& parameter) 
   struct Unit {
     std::string_view ending, words;
   };
-  static constexpr std::array kUnits{Unit{"_um_per_mm", "um per mm"}, Unit{"_nm_per_rpm", "N m per rpm"},
-                                     Unit{"_um", "um"},               Unit{"_mm", "mm"},
-                                     Unit{"_deg", "degrees"},         Unit{"_nm", "N m"},
-                                     Unit{"_rpm", "rpm"},             Unit{"_per_c", "per degree Celsius"},
+  static constexpr std::array kUnits{Unit{"_nm_at_1000_rpm", "N m at 1000 rpm"},
+                                     Unit{"_um_per_mm", "um per mm"},
+                                     Unit{"_nm_per_rpm", "N m per rpm"},
+                                     Unit{"_um", "um"},
+                                     Unit{"_mm", "mm"},
+                                     Unit{"_deg", "degrees"},
+                                     Unit{"_nm", "N m"},
+                                     Unit{"_rpm", "rpm"},
+                                     Unit{"_per_c", "per degree Celsius"},
                                      Unit{"_c", "degrees Celsius"}};
   std::string name = "_" + parameter;
   std::string words;

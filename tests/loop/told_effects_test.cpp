@@ -282,6 +282,8 @@ TEST(Units, AreWords) {
   EXPECT_EQ(loop::name_and_unit("centre_diameter_mm"), std::pair(std::string("centre diameter"), std::string("mm")));
   EXPECT_EQ(loop::name_and_unit("slope_um_per_mm").second, "um per mm");
   EXPECT_EQ(loop::name_and_unit("nm_per_rpm").second, "N m per rpm");
+  EXPECT_EQ(loop::name_and_unit("nm_at_1000_rpm"),
+            std::pair(std::string("amount"), std::string("N m at 1000 rpm")));
   EXPECT_EQ(loop::name_and_unit("percent"), std::pair(std::string("amount"), std::string("percent")));
   EXPECT_EQ(loop::name_and_unit("order"), std::pair(std::string("order"), std::string()));
 }

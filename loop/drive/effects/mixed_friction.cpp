@@ -7,8 +7,8 @@ namespace trueflank::loop::drive_effects {
 DriveFamily mixed_friction() {
   DriveFamily f;
   f.id = "mixed_friction";
-  f.description =
-      "the flanks' friction coefficient is higher at low speed: + value exp(-(n/n0)^exponent)";
+  f.description = "the flanks' friction coefficient is higher at low speed";
+  f.law = "+ value exp(-(n / speed_rpm)^exponent)";
   f.cause = "mixed lubrication of the flanks at low speed";
   f.correction = "viscosity, finish of the flanks";
   f.follows = "speed";

@@ -111,10 +111,11 @@ std::string subject_of(double what) {
                                        : "a loss at the input";
 }
 
-std::string more_of(const std::vector<Parameter>& figures, double what, double amount) {
+std::string more_of(const std::vector<Parameter>& figures, double what, double amount,
+                    const std::string& than) {
   const bool reads = what == double(kOutputReads) || what == double(kOutputGain);
   return with_interval(reads ? figures.back() : figures.front(), " N m") +
-         (amount > 0.0 ? " more" : " less") +
+         (amount > 0.0 ? " more" : " less") + than +
          (is_beside_the_load(what) ? " at the largest load, in proportion to it" : "");
 }
 

@@ -41,9 +41,9 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] bool is_beside_the_load(double what);
 /// "a loss at the input", or whose reading it is.
 [[nodiscard]] std::string subject_of(double what);
-/// "0.2 (0.19 to 0.21) N m more", of a reading as the output reads it.
-[[nodiscard]] std::string more_of(const std::vector<Parameter>& figures, double what,
-                                  double amount);
+/// "0.2 (0.19 to 0.21) N m more", of a reading as the output reads it; `than` comes after "more".
+[[nodiscard]] std::string more_of(const std::vector<Parameter>& figures, double what, double amount,
+                                  const std::string& than = {});
 /// Of a reading what the output reads, last of the figures.
 void add_reading(const DriveContext& context, double what, double amount,
                  std::vector<Parameter>& figures);

@@ -7,8 +7,8 @@ namespace trueflank::loop::drive_effects {
 DriveFamily stribeck_friction() {
   DriveFamily f;
   f.id = "stribeck_friction";
-  f.description =
-      "a torque at the input that fades as the drive speeds up: T exp(-(n/n0)^exponent)";
+  f.description = "a torque at the input that fades as the drive speeds up";
+  f.law = "torque_nm exp(-(n / speed_rpm)^exponent)";
   f.cause = "boundary lubrication at low speed";
   f.correction = "lubricant with better boundary film, smoother flanks and seals";
   f.follows = "speed";

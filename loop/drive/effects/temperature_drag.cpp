@@ -7,7 +7,8 @@ namespace trueflank::loop::drive_effects {
 DriveFamily temperature_drag() {
   DriveFamily f;
   f.id = "temperature_drag";
-  f.description = "drag that falls as the drive warms: torque_nm exp(-per_c (t - the bench's mean))";
+  f.description = "drag that falls as the drive warms";
+  f.law = "torque_nm exp(-per_c (t - the bench's mean))";
   f.cause = "stiff grease, seals";
   f.correction = "softer grease; warm up";
   f.follows = "warmth";

@@ -7,8 +7,8 @@ namespace trueflank::loop::drive_effects {
 DriveFamily temperature_viscosity() {
   DriveFamily f;
   f.id = "temperature_viscosity";
-  f.description =
-      "viscous drag that thins as the drive warms: nm_per_rpm exp(-per_c (t - the bench's mean))";
+  f.description = "viscous drag that thins as the drive warms";
+  f.law = "nm_per_rpm exp(-per_c (t - the bench's mean))";
   f.cause = "viscosity of the lubricant";
   f.correction = "warm up, or a lubricant of higher viscosity index";
   f.follows = "warmth";

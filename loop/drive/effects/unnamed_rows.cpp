@@ -60,7 +60,7 @@ std::string turns_told(const DriveContext& context, const DriveShape& s, double 
                                          : "every fourth row";
   return subject_of(s[kRowsOf]) + " that goes by turns of the rows: " + which + ", from line " +
          std::to_string((first == points.end() ? points.front() : *first).line) + " on, has " +
-         more_of(figures, s[kRowsOf], amount) + " than the rows between" +
+         more_of(figures, s[kRowsOf], amount, " than the rows between") +
          (s[kRowsBased] != 0.0 ? ", which have nothing of it" : "") +
          same_sign(context, s[kRowsOf]) +
          " (two transducers, or two ways of setting a load, by turns?)";
@@ -205,7 +205,7 @@ DriveFamily block(bool reads) {
     return subject_of(s[kBlockOf]) + " over a block of the run, from " +
            with_interval(figures[1], "").insert(0, "line ") + " to " +
            with_interval(figures[2], "").insert(0, "line ") + ": " +
-           more_of(figures, s[kBlockOf], amount) + " than before and after" +
+           more_of(figures, s[kBlockOf], amount, " than before and after") +
            same_sign(context, s[kBlockOf]) +
            " (something that slipped, or was changed and changed back?)";
   };

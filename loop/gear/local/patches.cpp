@@ -83,9 +83,9 @@ class PatchMaker {
     if (is_single(row.kind))
       key[5] = number;
     else if (row.kind == ObservationKind::kProfile)
-      key[5] = part_of(geometry_.profile_coordinate(place.roll_mm), kTraceParts);
+      key[5] = part_of(geometry_.profile_coordinate(place.roll_mm), kTraceParts), key[6] = row.line;
     else if (row.kind == ObservationKind::kHelix)
-      key[6] = part_of(geometry_.face_coordinate(place.z_mm), kTraceParts);
+      key[5] = row.line, key[6] = part_of(geometry_.face_coordinate(place.z_mm), kTraceParts);
     else if (row.kind == ObservationKind::kScanFlank) {
       key[5] = part_of(geometry_.profile_coordinate(place.roll_mm), kProfileParts);
       key[6] = face_part(place.z_mm);

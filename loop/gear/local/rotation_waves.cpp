@@ -38,7 +38,7 @@ struct ProfileTrace {
 };
 
 struct ProfileTraces {
-  std::map<int, ProfileTrace> of;  ///< by tooth and side, or by the trace
+  std::map<std::array<int, 3>, ProfileTrace> of;  ///< by trace or flank, and line
   std::set<int> teeth;
   bool scanned = false;  ///< the values of a scanned flank as one trace
 };
@@ -54,14 +54,15 @@ ProfileTraces gathered(const FlankGeometry& geometry, const Observations& table,
   }
   traces.scanned = profiles == 0;
   const ObservationKind kind = traces.scanned ? ObservationKind::kScanFlank : ObservationKind::kProfile;
-  const ThinnedRows some(scanned, traces.scanned ? kMostScanned : std::max<std::size_t>(1, scanned));
-  std::vector<ProfileTrace> of_flank(2 * static_cast<std::size_t>(geometry.teeth() + 1));
+  const ThinnedRows some(scanned,
+                         traces.scanned ? kMostScanned : std::max<std::size_t>(1, scanned));
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     if (!some.has(i) || !used[i] || table.rows[i].kind != kind) continue;
     const Observation& row = table.rows[i];
     const Place& place = table.place(row);
     const auto flank = static_cast<std::size_t>(2 * place.tooth + (place.side > 0 ? 1 : 0));
-    ProfileTrace& trace = row.trace >= 0 ? traces.of[row.trace] : of_flank[flank];
+    ProfileTrace& trace =
+        traces.of[{row.trace, row.trace >= 0 ? 0 : static_cast<int>(flank), row.line}];
     trace.side = place.side;
     trace.middle_rad.push_back(geometry.centre_rad(place.tooth) + geometry.twist_rad(place.z_mm));
     trace.along_rad.push_back(-geometry.sense() * place.side * place.roll_mm /
@@ -69,9 +70,6 @@ ProfileTraces gathered(const FlankGeometry& geometry, const Observations& table,
     trace.um.push_back(row_um[i]);
     traces.teeth.insert(place.tooth);
   }
-  for (std::size_t flank = 0; flank < of_flank.size(); ++flank)
-    if (!of_flank[flank].um.empty())
-      traces.of.emplace(-static_cast<int>(flank), std::move(of_flank[flank]));
   return traces;
 }
 

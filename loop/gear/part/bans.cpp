@@ -193,8 +193,10 @@ void ban_what_cannot_be_seen(PartModel& model) {
   for (std::size_t g = 0; g < model.candidates.size(); ++g) {
     const Effect& effect = model.candidates[g];
     const NeedsToBeSeen needs = effect.needs();
-    if ((needs.along_profile && !seen.along_profile) || (needs.along_face && !seen.along_face) ||
-        (needs.crossed && !seen.crossed) || !is_within_reach(model, effect) ||
+    // (profiles at several heights show how they differ from one to the next)
+    const bool follows =
+        (!needs.along_profile || seen.along_profile) && (!needs.along_face || seen.along_face);
+    if ((needs.crossed ? !seen.crossed : !follows) || !is_within_reach(model, effect) ||
         aliases(effect, seen) || is_alike_on_all(effect, seen, model.geometry.teeth()) ||
         is_a_slope(effect))
       model.banned[g] = true;
