@@ -87,6 +87,10 @@ struct BenchTable {
   }
 };
 
+/// The table without its rows, to take some of them: each still finds the row before it. `table`
+/// must outlive it.
+[[nodiscard]] BenchTable without_rows(const BenchTable& table);
+
 inline constexpr int kBenchFolds = 8;
 
 /// Judges the rows and puts them into the table. Swapped columns or directions are put right in it

@@ -32,22 +32,28 @@ class LastValues {
 };
 
 /// In which rows something is there, of the figures that were asked last: what a row has depends on
-/// the rows before it. Not for several threads.
+/// the rows before it. Several are kept, as two shapes may be asked by turns, row by row. Not for
+/// several threads.
 class LastRows {
  public:
   template <class Function>
   [[nodiscard]] const std::vector<char>& of(const std::vector<double>& figures,
                                             const Function& function) {
-    if (figures != figures_ || rows_.empty()) {
-      rows_ = function();
-      figures_ = figures;
-    }
-    return rows_;
+    for (const Kept& kept : kept_)
+      if (!kept.rows.empty() && kept.figures == figures) return kept.rows;
+    Kept& kept = kept_[next_];
+    next_ = (next_ + 1) % kept_.size();
+    kept = {figures, function()};
+    return kept.rows;
   }
 
  private:
-  std::vector<double> figures_;
-  std::vector<char> rows_;
+  struct Kept {
+    std::vector<double> figures;
+    std::vector<char> rows;
+  };
+  std::array<Kept, 4> kept_ = {};
+  std::size_t next_ = 0;
 };
 
 }  // namespace trueflank::loop
