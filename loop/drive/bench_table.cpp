@@ -417,6 +417,13 @@ bool BenchTable::has(bool forward) const {
                      [&](const BenchPoint& p) { return p.forward == forward; });
 }
 
+BenchTable without_rows(const BenchTable& table) {
+  BenchTable some = table;
+  some.points.clear();
+  if (some.all_points == nullptr) some.all_points = &table.points;
+  return some;
+}
+
 void measure_extent(BenchTable& table) {
   double low = 1e300, high = -1e300, sum = 0.0;
   table.least_speed_rpm = table.least_load_nm = table.least_carried_nm = 1e300;

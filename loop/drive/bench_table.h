@@ -80,12 +80,19 @@ struct BenchTable {
   const std::vector<BenchPoint>* all_points = nullptr;
 
   [[nodiscard]] bool has(bool forward) const;
+  /// All rows, of a table of some rows too.
+  [[nodiscard]] const std::vector<BenchPoint>& every_row() const {
+    return all_points != nullptr ? *all_points : points;
+  }
   /// The row that was taken right before; nullptr: none was, or it was left out.
   [[nodiscard]] const BenchPoint* row_before(const BenchPoint& p) const {
-    const std::vector<BenchPoint>& all = all_points != nullptr ? *all_points : points;
-    return p.before < 0 ? nullptr : &all[static_cast<std::size_t>(p.before)];
+    return p.before < 0 ? nullptr : &every_row()[static_cast<std::size_t>(p.before)];
   }
 };
+
+/// The table without its rows, to take some of them: each still finds the row before it. `table`
+/// must outlive it.
+[[nodiscard]] BenchTable without_rows(const BenchTable& table);
 
 inline constexpr int kBenchFolds = 8;
 

@@ -15,8 +15,7 @@ namespace {
 /// must outlive them.
 BenchTable some_rows_of(const BenchTable& table, std::size_t most) {
   constexpr double kGolden = 0.6180339887498949;
-  BenchTable some = table;
-  some.points.clear();
+  BenchTable some = without_rows(table);
   const double each = static_cast<double>(table.points.size()) / static_cast<double>(most);
   std::map<int, int> units;  // without those of which no row is left
   for (std::size_t k = 0; k < most; ++k) {
@@ -28,7 +27,6 @@ BenchTable some_rows_of(const BenchTable& table, std::size_t most) {
     some.points.push_back(point);
   }
   some.units = static_cast<int>(units.size());
-  if (some.all_points == nullptr) some.all_points = &table.points;
   return some;
 }
 

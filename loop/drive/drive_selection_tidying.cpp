@@ -121,8 +121,7 @@ bool DriveSelection::leaves_structure(const DriveOutcome& outcome) const {
   const DriveContext here = context();
   const Eigen::VectorXd left =
       value_ - DriveFit(here, value_, outcome.effects, FitRows::kTraining).explained_nm();
-  BenchTable seen = table_;
-  seen.points.clear();
+  BenchTable seen = without_rows(table_);
   std::vector<Eigen::Index> rows;
   for (std::size_t i = 0; i < table_.points.size(); ++i) {
     if (table_.points[i].fold == 0) continue;

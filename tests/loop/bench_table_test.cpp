@@ -244,6 +244,24 @@ TEST(BenchTable, ARowBeforeIsTheOneThatWasTakenBeforeThoughAnotherWasLeftOut) {
   EXPECT_EQ(without, 2);  // the first one, and the one after the slip
 }
 
+TEST(BenchTable, ARowThatWasTakenOutOfATableStillFindsTheRowBefore) {
+  DrawnBench bench = any_rows(4, true);
+  const auto table =
+      loop::make_bench_table(bench.model(), bench.data([](const DrawnRow&) { return 0.0; }));
+  ASSERT_TRUE(table);
+  loop::BenchTable some = loop::without_rows(*table);
+  EXPECT_TRUE(some.points.empty());
+  const loop::BenchPoint& last = table->points.back();
+  some.points.push_back(last);
+  loop::BenchTable of_some = loop::without_rows(some);
+  of_some.points.push_back(last);
+  for (const loop::BenchTable* one : {&some, &of_some}) {
+    const loop::BenchPoint* const before = one->row_before(one->points.front());
+    ASSERT_NE(before, nullptr);
+    EXPECT_EQ(before->row, last.row - 1);
+  }
+}
+
 TEST(BenchFile, OutliersAreLeftOutByFileAndLine) {
   std::vector<std::string> lines = clean_lines();
   lines[20] = scaled(lines[20], lines[20].starts_with("backward") ? 1.3 : 1.0,

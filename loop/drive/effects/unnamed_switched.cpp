@@ -26,7 +26,8 @@ enum SwitchedValue : std::size_t {
   kSwitchedOf
 };
 
-/// Where it has risen above the upper value and not yet fallen below the lower one.
+/// Where it has risen above the upper value and not yet fallen below the lower one, of every row:
+/// between some rows of a log it may have changed.
 struct SwitchedRows {
   std::vector<char> high;
   int changes = 0;
@@ -37,7 +38,7 @@ struct SwitchedRows {
 SwitchedRows switched_rows(const DriveContext& context, const DriveShape& s) {
   SwitchedRows rows;
   bool high = (s[kSwitchedStarts] != 0.0) != (s[kSwitchedOnBelow] != 0.0);
-  for (const BenchPoint& p : context.table.points) {
+  for (const BenchPoint& p : context.table.every_row()) {
     const double share = share_in_range(context, p, s[kSwitchedOver]);
     const bool before = high;
     if (high) {
@@ -56,7 +57,7 @@ SwitchedRows switched_rows(const DriveContext& context, const DriveShape& s) {
 }
 
 bool is_switched_on(const DriveContext& context, const BenchPoint& p, const DriveShape& s) {
-  const auto& points = context.table.points;
+  const auto& points = context.table.every_row();
   const std::vector<char>& high =
       context.last_switched.of(s, [&] { return switched_rows(context, s).high; });
   const auto at = std::lower_bound(points.begin(), points.end(), p.row,
@@ -97,7 +98,7 @@ bool shows_switched(const DriveContext& context, const DriveShape& s) {
   const SwitchedRows rows = switched_rows(context, s);
   int high = 0, low = 0;
   for (std::size_t i = 0; i < rows.high.size(); ++i) {
-    const double share = share_in_range(context, context.table.points[i], s[kSwitchedOver]);
+    const double share = share_in_range(context, context.table.every_row()[i], s[kSwitchedOver]);
     if (share < s[kSwitchedLower] || share > s[kSwitchedUpper]) continue;
     (rows.high[i] != 0 ? high : low) += 1;
   }
