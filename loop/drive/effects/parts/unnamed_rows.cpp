@@ -7,7 +7,7 @@
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/drive/effects/columns.h"
-#include "trueflank/loop/drive/effects/parts_of_ranges.h"
+#include "trueflank/loop/drive/effects/parts/parts_of_ranges.h"
 #include "trueflank/loop/drive/effects/registry.h"
 
 // What counts rows: rows that are read by turns (two transducers, two hands on a lever), a block of

@@ -7,7 +7,7 @@
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/drive/effects/columns.h"
-#include "trueflank/loop/drive/effects/parts_of_ranges.h"
+#include "trueflank/loop/drive/effects/parts/parts_of_ranges.h"
 #include "trueflank/loop/drive/effects/registry.h"
 
 // A loss that comes in between two places and stays: evenly, or in two steps, over the load, the
