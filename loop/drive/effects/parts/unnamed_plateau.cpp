@@ -187,6 +187,7 @@ DriveFamily unnamed_two_steps() {
         return std::pair(0.0, 1.0);
       }};
   f.falls_in_steps = true;
+  f.changes_in_run = [](const DriveShape& s) { return s[kPlateauOver] == kOverRun ? 2.0 : 0.0; };
   f.shape_values = {
       {}, {}, place, place, {}, {.continuous = true, .limits = [](const DriveContext&) {
                                    return std::pair(kLeastFirstStep, kMostFirstStep);

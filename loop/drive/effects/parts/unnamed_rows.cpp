@@ -161,6 +161,7 @@ DriveFamily block(bool reads) {
   f.stands_alone = true;
   f.dearer = kDearerForms;
   f.falls_in_steps = true;
+  f.changes_in_run = [](const DriveShape&) { return 2.0; };
   const DriveShapeValue edge{
       .continuous = true, .is_place = true, .reach = 0.02, .limits = [](const DriveContext&) {
         return std::pair(0.0, 1.0);
