@@ -186,6 +186,8 @@ struct DriveFamily : EffectFacts {
   bool falls_in_steps = false;
   /// It jumps once in the course of the run, at its second shape value (-1 ... 1 over the run).
   bool jumps_in_run = false;
+  /// At how many rows of the run it begins, ends or jumps, of a shape; empty: at none.
+  std::function<double(const DriveShape&)> changes_in_run = {};
   /// A wave of another size in every row: asked in place of plain waves of about its order.
   bool is_wave_of_sizes = false;
   /// A wave of a part of the loads, speeds, temperatures or the run: asked by the spectra of parts.

@@ -38,25 +38,23 @@ double alike_in_order(const DriveContext& context, const Eigen::VectorXd& left, 
 }
 
 /// True of levels of which every second one is the same: what is there at times, and at times not.
-bool goes_to_and_fro(const std::vector<double>& levels) {
+bool goes_to_and_fro(std::vector<double> levels) {
   constexpr std::size_t kFewest = 4;
-  constexpr double kSame = 0.25;  // of how far they reach
+  constexpr double kSame = 0.15;  // of how far they reach
   if (levels.size() < kFewest) return false;
+  levels.insert(levels.begin(), 0.0);  // before the first change
   const auto [low, high] = std::minmax_element(levels.begin(), levels.end());
   for (std::size_t k = 2; k < levels.size(); ++k)
     if (std::abs(levels[k] - levels[k - 2]) > kSame * (*high - *low)) return false;
   return true;
 }
 
-/// Where in the run what stands in a part of it, or jumps in its course, begins and ends.
+/// At how many rows of the run what stands in a part of it, or jumps in its course, begins and
+/// ends.
 double changes_in_run(const std::vector<DriveEffect>& effects) {
-  constexpr std::size_t kOrderOfSpell = 1;  // 0: of the run
   double changes = 0.0;
   for (const DriveEffect& e : effects)
-    if (e.family->jumps_in_run)
-      changes += 1.0;
-    else if (e.family->shape_of_spell && e.shape[kOrderOfSpell] == 0.0)
-      changes += 2.0;
+    if (e.family->changes_in_run) changes += e.family->changes_in_run(e.shape);
   return changes;
 }
 
@@ -117,6 +115,7 @@ void DriveSelection::tell_as_scattered_states(DriveOutcome& outcome) {
 
 void DriveSelection::tell_as_levels_of_the_run(DriveOutcome& outcome) {
   constexpr double kClearly = 30.0, kAsOne = 4.0, kMostLeft = 0.8;
+  constexpr double kOfAnEffect = 6.0;  // chi-square
   constexpr std::size_t kFewestLevels = 2, kMostLevels = 12;
   const bool both = table_.has(true) && table_.has(false);
   const OneForm now = as_it_is(outcome);
@@ -126,8 +125,9 @@ void DriveSelection::tell_as_levels_of_the_run(DriveOutcome& outcome) {
     // (of one direction a zero says what a loss would)
     if (!family.shape_of_levels || !may_be_there(family) || (family.is_loss && !both)) continue;
     const double what = family.is_loss ? drive_effects::kDrag : drive_effects::kOutputReads;
-    for (const bool with_drag : {false, true}) {
-      OneForm set = names_beside_levels(outcome, with_drag);
+    // (a name may only have mended what levels do: it goes where less is left without it)
+    for (OneForm set :
+         {OneForm{}, names_beside_levels(outcome, false), names_beside_levels(outcome, true)}) {
       const DriveContext here = context();
       Eigen::VectorXd left =
           value_ - DriveFit(here, value_, set.effects, FitRows::kTraining).explained_nm();
@@ -167,11 +167,14 @@ void DriveSelection::tell_as_levels_of_the_run(DriveOutcome& outcome) {
   const double gain = now.figure(noise) - least +
                       cost_of_changes(outcome.rows, changes_in_run(outcome.effects)) -
                       (1.0 - 1.0 / shared) * std::max(0.0, now.square - best.square) / noise;
-  if (gain < (fewer ? kAsOne : kClearly)) return;
+  const double of_effects =
+      kOfAnEffect * static_cast<double>(outcome.effects.size() - best.effects.size());
+  if (gain < (fewer ? kAsOne - of_effects : kClearly)) return;
   const DriveOutcome before = outcome;
   const DriveState state = state_;
   exchange_as_sure(outcome, best, gain);
   if (!is_denied(outcome) || is_denied(before)) return;
+  most_denied_ = std::max(most_denied_, gain);
   outcome = before;
   state_ = state;
 }

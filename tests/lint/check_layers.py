@@ -31,6 +31,7 @@ LAYERS = {
     "loop/gear/effects": ["base", "geometry", "loop/gear", "loop/result"],
     "loop/drive": ["base", "geometry", "train", "loop/measured", "loop/discovery", "loop/result"],
     "loop/drive/effects": ["base", "loop/drive", "loop/result"],
+    "loop/drive/effects/parts": ["base", "loop/drive", "loop/result"],
     "report": ["base", "geometry", "train", "search", "check", "solid", "export", "loop"],
     "session": ["base", "geometry", "train", "search", "check", "solid", "export", "design", "loop",
                 "report"],

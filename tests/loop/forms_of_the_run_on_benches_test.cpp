@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -55,6 +56,43 @@ TEST(FormsOfTheRunOnBenches, AZeroThatWasSetAnewSeveralTimesHasItsLinesAndLevels
                  std::abs(level->value - size * share[static_cast<std::size_t>(k)]) < 0.12 * size;
     }
     answers.add(seed, std::to_string(parts) + " levels", closed, is_right);
+  });
+}
+
+TEST(FormsOfTheRunOnBenches, AZeroSetAnewInOneDirectionHasThreeToSevenLevelsOfAnyLength) {
+  expect_all(8600, 6, [](Answers& answers, std::uint64_t seed) {
+    const int levels = 3 + static_cast<int>(seed % 5);
+    DrawnBench bench = any_rows(seed, false, 40 * levels + (seed % 2 == 0 ? 0 : 150));
+    const int rows = static_cast<int>(bench.rows.size()), shortest = rows / (2 * levels);
+    const double size = bench.scatter_nm() * bench.ratio * bench.between(8.0, 16.0);
+    std::vector<int> first{0};
+    std::vector<double> level{0.0};
+    for (int k = 1; k < levels; ++k) {
+      first.push_back(first.back() + shortest + bench.whole(0, shortest));
+      double next = level.back();
+      while (std::abs(next - level.back()) < 0.4 || std::abs(next) < 0.25)
+        next = bench.between(-1.0, 1.0);
+      level.push_back(next);
+    }
+    const auto level_of = [&](int row) {
+      const auto after = std::upper_bound(first.begin(), first.end(), row);
+      return size * level[static_cast<std::size_t>(after - first.begin() - 1)];
+    };
+    const auto closed = loop::close_drive_loop(
+        bench.model(), bench.data([](const DrawnRow&) { return 0.0; }, 0.1,
+                                  [&](const DrawnRow& r) { return level_of(r.row); }));
+    bool is_right = leaves_noise(closed, bench) && is_told_once(closed, "changes", levels - 1);
+    for (int k = 1; k < levels && is_right; ++k) {
+      const std::string number = std::to_string(k);
+      const loop::FoundEffect& effect = closed->result.effects.front();
+      const auto at = static_cast<std::size_t>(k);
+      const loop::Parameter *line = parameter(effect, "from_line_" + number),
+                            *told = parameter(effect, "reads_more_" + number + "_nm");
+      is_right = line != nullptr && told != nullptr &&
+                 std::abs(line->value - (first[at] + 2)) <= 1.0 &&
+                 std::abs(told->value - size * level[at]) < 0.12 * size;
+    }
+    answers.add(seed, std::to_string(levels) + " levels", closed, is_right);
   });
 }
 

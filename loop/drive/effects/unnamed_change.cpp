@@ -103,6 +103,7 @@ DriveFamily unnamed_spell() {
   f.preference = 8;
   // Its places are too many to try: a scan of what is left proposes them.
   f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.changes_in_run = [](const DriveShape& s) { return s[1] == 0.0 ? 2.0 : 0.0; };
   f.shape_of_spell = [](double what, double order, double begin, double length) {
     return DriveShape{what, order, begin, length};
   };
@@ -220,6 +221,7 @@ DriveFamily jump(bool reading) {
   f.shape_names = {"what", "place"};
   f.stands_alone = true;
   f.jumps_in_run = true;
+  f.changes_in_run = [](const DriveShape&) { return 1.0; };
   f.preference = 6;
   f.shape_values = {{}, {.continuous = true, .is_place = true, .limits = [](const DriveContext&) {
                            return std::pair(-kMostOfJump, kMostOfJump);

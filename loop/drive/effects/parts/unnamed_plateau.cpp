@@ -7,7 +7,7 @@
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/drive/effects/columns.h"
-#include "trueflank/loop/drive/effects/parts_of_ranges.h"
+#include "trueflank/loop/drive/effects/parts/parts_of_ranges.h"
 #include "trueflank/loop/drive/effects/registry.h"
 
 // A loss that comes in between two places and stays: evenly, or in two steps, over the load, the
@@ -187,6 +187,7 @@ DriveFamily unnamed_two_steps() {
         return std::pair(0.0, 1.0);
       }};
   f.falls_in_steps = true;
+  f.changes_in_run = [](const DriveShape& s) { return s[kPlateauOver] == kOverRun ? 2.0 : 0.0; };
   f.shape_values = {
       {}, {}, place, place, {}, {.continuous = true, .limits = [](const DriveContext&) {
                                    return std::pair(kLeastFirstStep, kMostFirstStep);

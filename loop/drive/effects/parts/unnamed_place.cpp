@@ -14,7 +14,9 @@ std::string place_in_words(const DriveShape& s, const DriveContext* context, con
   const std::string text = std::string("with a ") + what + " over the " + name_of_quantity(s[0]);
   if (context == nullptr) return text;
   return text + " at " + short_text(context->quantity_at(s[0], s[1])) +
-         (s[0] == 0.0 ? " N m at the input" : s[0] == 1.0 ? " rpm" : " C");
+         (s[0] == 0.0   ? " N m at the input"
+          : s[0] == 1.0 ? " rpm"
+                        : " C");
 }
 
 /// A bell over the coordinate, a resonance, a bell over the quantity itself.

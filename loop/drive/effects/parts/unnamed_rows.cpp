@@ -7,7 +7,7 @@
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/drive/effects/columns.h"
-#include "trueflank/loop/drive/effects/parts_of_ranges.h"
+#include "trueflank/loop/drive/effects/parts/parts_of_ranges.h"
 #include "trueflank/loop/drive/effects/registry.h"
 
 // What counts rows: rows that are read by turns (two transducers, two hands on a lever), a block of
@@ -161,6 +161,7 @@ DriveFamily block(bool reads) {
   f.stands_alone = true;
   f.dearer = kDearerForms;
   f.falls_in_steps = true;
+  f.changes_in_run = [](const DriveShape&) { return 2.0; };
   const DriveShapeValue edge{
       .continuous = true, .is_place = true, .reach = 0.02, .limits = [](const DriveContext&) {
         return std::pair(0.0, 1.0);

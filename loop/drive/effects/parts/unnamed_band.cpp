@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "trueflank/loop/drive/effects/columns.h"
-#include "trueflank/loop/drive/effects/parts_of_ranges.h"
+#include "trueflank/loop/drive/effects/parts/parts_of_ranges.h"
 #include "trueflank/loop/drive/effects/registry.h"
 
 // A loss, or a reading, between two speeds, loads or temperatures alone, with sharp edges, or
