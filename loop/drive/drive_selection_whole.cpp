@@ -111,8 +111,10 @@ void DriveSelection::tell_as_whole_forms(DriveOutcome& outcome) {
   const bool in_steps = std::any_of(table_.points.begin(), table_.points.end(),
                                     [](const BenchPoint& p) { return p.reading >= 0; });
   if (in_steps || (gains_power() && table_.has(true) && table_.has(false))) return;
+  tell_as_pits(outcome);
   for (int round = 0; round < 2; ++round)
     if (!tell_as_one_whole(outcome, round == 0)) break;
+  tell_as_waves_of_the_run(outcome);
   tell_as_scattered_states(outcome);
   tell_as_levels_of_the_run(outcome);
 }
