@@ -80,7 +80,7 @@ Scanned likeliest_part(const BenchTable& table, const SeenRows& seen, double ord
   Scanned best;
   for (int begin = 0; begin < kParts; ++begin) {
     Sums inside;
-    for (int length = 1; length <= kParts * 55 / 100; ++length) {
+    for (int length = 1; length <= 2 * kParts / 5; ++length) {
       inside.add(part[static_cast<std::size_t>((begin + length - 1) % kParts)]);
       if (inside.rows < kFewestRows || all.rows - inside.rows < kFewestRows) continue;
       const double beside = inside.square - inside.square * inside.square / all.square,
@@ -228,7 +228,8 @@ bool DriveSelection::tell_if_clearly(DriveOutcome& outcome, const std::vector<Pr
       sets.push_back({std::move(set), 0.0, form.looks});
     }
   std::stable_sort(sets.begin(), sets.end(), [&](const PricedForm& a, const PricedForm& b) {
-    return a.set.figure(noise) + a.looks < b.set.figure(noise) + b.looks;
+    return a.set.figure(noise) + looks_beyond(outcome, a) <
+           b.set.figure(noise) + looks_beyond(outcome, b);
   });
   constexpr std::size_t kMostRefined = 6;
   if (sets.size() > kMostRefined) sets.resize(kMostRefined);
@@ -241,7 +242,8 @@ bool DriveSelection::tell_if_clearly(DriveOutcome& outcome, const std::vector<Pr
     noise = std::min(noise, priced.set.square / std::max(1.0, outcome.rows - priced.set.size));
   }
   for (const PricedForm& priced : sets)
-    if (const double figure = priced.set.figure(noise) + priced.looks; figure < least) {
+    if (const double figure = priced.set.figure(noise) + looks_beyond(outcome, priced);
+        figure < least) {
       least = figure;
       best = &priced;
     }
@@ -287,13 +289,15 @@ void DriveSelection::tell_as_pits(DriveOutcome& outcome) {
   if (!(line.p_value < kLevel)) return;
   const SeenRows seen = seen_rows(here, left, double(forms::kDrag));
   Scanned best;
-  for (int times = 1; times <= kMostTimesOfLine; ++times)
+  for (int times = 1; times <= kMostTimesOfLine; ++times) {
+    if (is_a_turn(model_, line.order / times, table_.turns)) continue;
     for (int slip = -kSlips; slip <= kSlips; ++slip) {
       const double order = line.order / times + kNearLine * slip / table_.turns;
       if (order * table_.turns < kFewestTimes || is_a_turn(model_, order, table_.turns)) continue;
       if (Scanned part = likeliest_part(table_, seen, order); part.gain > best.gain)
         best = std::move(part);
     }
+  }
   if (best.shape.empty()) return;
   constexpr std::size_t kLooks = 200000;
   const DriveFamily& family = family_that(&DriveFamily::comes_again_over_the_angle, false);
@@ -304,6 +308,8 @@ void DriveSelection::tell_as_pits(DriveOutcome& outcome) {
     shape[forms::kPitSharp] = sharp;
     OneForm set = base;
     set.effects.push_back(nearest_best(here, beside, {&family, shape}));
+    if (is_a_turn(model_, forms::order_of_pits(table_, set.effects.back().shape), table_.turns))
+      continue;
     set.from.push_back(-1);
     found.push_back({std::move(set), 0.0, cost_of_looks(kLooks) + family.dearer});
   }

@@ -56,7 +56,7 @@ DriveFamily first_rows() {
       for (const double what : {double(kDrag), double(kFlanks)}) shapes.push_back({what});
     return shapes;
   };
-  f.kind = [](const DriveShape& s) { return static_cast<int>(s[kFirstOf]); };
+  f.follows_rows_before = true;
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
                   double* c) {
     c[0] = stays_at_set_point(context.table, p) ? 0.0 : changed_nm(context, p, s[kFirstOf]);
@@ -157,7 +157,7 @@ DriveFamily left_behind() {
             shapes.push_back({over, place, above, rows, double(kDrag)});
     return shapes;
   };
-  f.kind = [](const DriveShape& s) { return static_cast<int>(2.0 * s[kLeftOver] + s[kLeftAbove]); };
+  f.follows_rows_before = true;
   f.all_shapes = [](const DriveContext& context, const DriveShape* about) {
     std::vector<DriveShape> shapes;
     if (about == nullptr) return shapes;

@@ -36,6 +36,9 @@ double first_pit(const BenchTable& table, const DriveShape& s) {
   return before / order_of_pits(table, s);
 }
 
+/// Of a period to either side: wider is a wave.
+constexpr double kWidestPit = 0.2;
+
 std::vector<DriveShape> pits_about(const DriveShape* about) {
   std::vector<DriveShape> shapes;
   if (about == nullptr) return shapes;
@@ -45,7 +48,7 @@ std::vector<DriveShape> pits_about(const DriveShape* about) {
     for (const double begin : edges)
       for (const double end : edges) {
         const double wide = half + 0.5 * (end - begin);
-        if (!(wide > 0.0 && wide < 0.5)) continue;
+        if (!(wide > 0.0 && wide < kWidestPit)) continue;
         shapes.push_back(*about);
         shapes.back()[kPitSlip] += slip;
         shapes.back()[kPitCentre] += 0.5 * (begin + end);
@@ -80,12 +83,12 @@ DriveFamily unnamed_pits() {
   f.dearer = kDearerForms;
   f.falls_in_steps = true;
   f.comes_again_over_the_angle = true;
-  f.shape_values = {
-      {},
-      {.continuous = true, .is_place = true, .reach = 0.05},
-      {.continuous = true, .is_place = true, .reach = 0.03},
-      {.continuous = true, .limits = [](const DriveContext&) { return std::pair(0.004, 0.35); }},
-      {}};
+  f.shape_values = {{},
+                    {.continuous = true, .is_place = true, .reach = 0.05},
+                    {.continuous = true, .is_place = true, .reach = 0.03},
+                    {.continuous = true,
+                     .limits = [](const DriveContext&) { return std::pair(0.004, kWidestPit); }},
+                    {}};
   f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
   f.kind = [](const DriveShape& s) { return static_cast<int>(s[kPitSharp]); };
   f.all_shapes = [](const DriveContext&, const DriveShape* about) { return pits_about(about); };
