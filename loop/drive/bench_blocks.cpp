@@ -260,6 +260,24 @@ SmoothFit without_memory(const BenchTable& table, const SmoothFit& fit) {
   return cleaned;
 }
 
+/// The same without what differs between files: another day is no error that neighbours share.
+SmoothFit without_means_of_files(const BenchTable& table, const SmoothFit& fit) {
+  std::vector<int> file, direction;
+  Eigen::VectorXd off(static_cast<Eigen::Index>(table.points.size()));
+  for (std::size_t i = 0; i < table.points.size(); ++i) {
+    const BenchPoint& p = table.points[i];
+    file.push_back(p.file);
+    direction.push_back(p.forward ? 1 : 0);
+    off[static_cast<Eigen::Index>(i)] = fit.residual_nm[i] / p.sigma_nm;
+  }
+  if (file.back() == file.front()) return fit;
+  take_means(off, together(file, direction));
+  SmoothFit cleaned = fit;
+  for (std::size_t i = 0; i < table.points.size(); ++i)
+    cleaned.residual_nm[i] = off[static_cast<Eigen::Index>(i)] * table.points[i].sigma_nm;
+  return cleaned;
+}
+
 }  // namespace
 
 void deal_hold_out_anew(BenchTable& table) {
@@ -283,7 +301,7 @@ void deal_hold_out_anew(BenchTable& table) {
 }
 
 void assign_blocks(BenchTable& table, const SmoothFit& whole_fit) {
-  const SmoothFit fit = without_memory(table, whole_fit);
+  const SmoothFit fit = without_memory(table, without_means_of_files(table, whole_fit));
   cut_into_set_points(table);
   const std::vector<int> set_point = set_points_of(table.points);
   bool log = false;

@@ -98,6 +98,7 @@ class TableMaker {
 
   ResultAll<BenchTable> make() {
     table_.notes = data_.notes;
+    table_.files = data_.files;
     if (Errors errors = settle_signs(data_, table_.notes); !errors.empty())
       return fail_all(std::move(errors));
     if (Errors errors = refuse_no_torque(data_); !errors.empty())

@@ -75,6 +75,7 @@ struct BenchTable {
   Impossible impossible = Impossible::kNothing;
   std::string impossible_text;  ///< one sentence: where, and how far
   std::vector<std::string> notes;
+  std::vector<std::string> files;  ///< as named by who gave them
 
   /// Of a table of some rows: all of them, which must outlive it.
   const std::vector<BenchPoint>* all_points = nullptr;

@@ -194,6 +194,12 @@ struct DriveFamily : EffectFacts {
   bool is_wave_of_part = false;
   /// A wave that is largest at a speed: asked at the orders of waves that were found.
   bool is_resonant_wave = false;
+  /// Follows what the rows right before a row were.
+  bool follows_rows_before = false;
+  /// Short, and comes again over the angle at no turn of a shaft: found by a scan.
+  bool comes_again_over_the_angle = false;
+  /// Comes and goes over the run in waves that a scan finds.
+  bool comes_again_over_the_run = false;
   /// The shapes by which it may be what a spectrum shows at an order; empty: none.
   std::function<std::vector<DriveShape>(const DriveContext&, double order)> shapes_at_order = {};
   /// The shape of a slow course of the run, a polynomial, that a scan proposes; empty: it takes none.

@@ -170,6 +170,7 @@ class DriveSelection {
   /// Descriptions over one quantity, and names that mend them, told as one form beside drag and
   /// friction where that leaves no more than chance: where a loss begins, stands out or jumps.
   struct OneForm;
+  struct PricedForm;
   void tell_as_one_form(DriveOutcome& outcome);
   void add_sets_with_one_form(const DriveOutcome& outcome, const OneForm& base, double over,
                               bool with_load, std::vector<OneForm>& sets);
@@ -188,6 +189,18 @@ class DriveSelection {
   /// Each of what may be all that a bench holds in place of what was chosen, or beside its names:
   /// told where it leaves clearly less, or does alone what several pieces do.
   void tell_as_whole_forms(DriveOutcome& outcome);
+  /// A short loss that comes again at no turn of a shaft, in place of all that has no name.
+  void tell_as_pits(DriveOutcome& outcome);
+  /// A loss that comes and goes over the run in waves: with the load or the speed, or of a period
+  /// that changes.
+  void tell_as_waves_of_the_run(DriveOutcome& outcome);
+  /// Losses that nearly every bench has and that hold what is the same everywhere of others.
+  [[nodiscard]] std::vector<DriveEffect> plain_losses() const;
+  /// The names that may stand beside what comes again, without the plain ones.
+  [[nodiscard]] OneForm names_beside_what_comes_again(const DriveOutcome& outcome) const;
+  /// The best of these sets, of which the last is the form, with any of the plain losses, where it
+  /// leaves clearly less than the outcome or does alone what several do. True where one was told.
+  bool tell_if_clearly(DriveOutcome& outcome, const std::vector<PricedForm>& found);
   /// A kin of a form that leaves the same of the rows seen, and of all rows surely less.
   void let_held_out_rows_settle_kin(DriveOutcome& outcome);
   /// A form that may be all there is, what it takes off, and how dear the looks for it are
@@ -204,7 +217,6 @@ class DriveSelection {
   };
   void fill_whole_columns();
   /// What is left of the price of its looks beside that of what it stands for (chi-square).
-  struct PricedForm;
   [[nodiscard]] double looks_beyond(const DriveOutcome& outcome, const PricedForm& priced) const;
   /// True where names that the set does not hold take back in one direction what they do.
   [[nodiscard]] bool drop_names_that_cancel(const DriveOutcome& outcome, const OneForm& set) const;

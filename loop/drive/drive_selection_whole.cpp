@@ -111,8 +111,10 @@ void DriveSelection::tell_as_whole_forms(DriveOutcome& outcome) {
   const bool in_steps = std::any_of(table_.points.begin(), table_.points.end(),
                                     [](const BenchPoint& p) { return p.reading >= 0; });
   if (in_steps || (gains_power() && table_.has(true) && table_.has(false))) return;
+  tell_as_pits(outcome);
   for (int round = 0; round < 2; ++round)
     if (!tell_as_one_whole(outcome, round == 0)) break;
+  tell_as_waves_of_the_run(outcome);
   tell_as_scattered_states(outcome);
   tell_as_levels_of_the_run(outcome);
 }
@@ -491,7 +493,13 @@ std::vector<DriveSelection::WholeForm> DriveSelection::whole_forms(
   std::erase_if(forms, [&](const WholeForm& f) { return f.gain < kLeastGain * beside.square(); });
   std::stable_sort(forms.begin(), forms.end(),
                    [](const WholeForm& a, const WholeForm& b) { return a.gain > b.gain; });
-  if (forms.size() > kMostForms) forms.resize(kMostForms);
+  // (what follows the rows before is asked beside these, not in the place of one)
+  constexpr double kMuchOfMost = 0.5;
+  const double most = forms.empty() ? 0.0 : forms.front().gain;
+  std::size_t kept = 0;
+  std::erase_if(forms, [&](const WholeForm& f) {
+    return f.effect.family->follows_rows_before ? f.gain < kMuchOfMost * most : ++kept > kMostForms;
+  });
   std::vector<WholeForm> refined;
   for (WholeForm& form : forms) {
     const DriveFamily& family = *form.effect.family;

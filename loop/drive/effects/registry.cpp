@@ -101,6 +101,14 @@ const std::vector<DriveFamily>& drive_library() {
         unnamed_reading_switched(),
         unnamed_lag(),
         unnamed_hersey(),
+        unnamed_by_file(),
+        unnamed_less_by_file(),
+        unnamed_reading_by_file(),
+        unnamed_pits(),
+        unnamed_waves_of_the_run(),
+        unnamed_changing_waves_of_the_run(),
+        unnamed_first_rows(),
+        unnamed_left_behind(),
     };
     for (DriveFamily& family : all) {
       family.shape_values.resize(family.shape_names.size());

@@ -109,6 +109,14 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_reading_switched();
 [[nodiscard]] DriveFamily unnamed_lag();
 [[nodiscard]] DriveFamily unnamed_hersey();
+[[nodiscard]] DriveFamily unnamed_by_file();
+[[nodiscard]] DriveFamily unnamed_less_by_file();
+[[nodiscard]] DriveFamily unnamed_reading_by_file();
+[[nodiscard]] DriveFamily unnamed_pits();
+[[nodiscard]] DriveFamily unnamed_waves_of_the_run();
+[[nodiscard]] DriveFamily unnamed_changing_waves_of_the_run();
+[[nodiscard]] DriveFamily unnamed_first_rows();
+[[nodiscard]] DriveFamily unnamed_left_behind();
 /// @}
 
 }  // namespace trueflank::loop::drive_effects
