@@ -178,7 +178,7 @@ GearLoop close_one(const FlankGeometry& geometry, const std::string& gear_name, 
                    const LoopOptions& options) {
   PartModel model(geometry, std::move(table),
                   {.declared = options.declared, .makings = options.makings});
-  explain_part(model);
+  explain_measured_part(model);
   const auto fit = fit_of(model, model.effects);
   std::vector<float> before_um = plain_fit(model)->residuals_without_effects_um();
   std::vector<float> after_um = *fit->residuals_um();

@@ -40,13 +40,13 @@ bool is_length(const EffectFamily& family, std::size_t k) {
          family.term_keys[k].kind == TermKey::Kind::kNumber;
 }
 
-/// The nearest shapes on both sides in which nothing but a length is another; equal: there are
-/// none.
-Beside nearest_beside(const FlankGeometry& geometry, const Effect& effect, std::size_t k) {
+/// The nearest of some shapes on both sides in which nothing but a length is another; equal: there
+/// are none.
+Beside nearest_beside(const Effect& effect, const std::vector<EffectShape>& shapes, std::size_t k) {
   Beside beside{effect.shape, effect.shape};
-  if (!effect.family->nearby || !is_length(*effect.family, k)) return beside;
+  if (!is_length(*effect.family, k)) return beside;
   double down = -1e300, up = 1e300;
-  for (const EffectShape& shape : effect.family->nearby(geometry, effect.shape)) {
+  for (const EffectShape& shape : shapes) {
     const double step = shape[k] - effect.shape[k];
     EffectShape same = shape;
     same[k] = effect.shape[k];
@@ -62,6 +62,29 @@ Beside nearest_beside(const FlankGeometry& geometry, const Effect& effect, std::
   return beside;
 }
 
+/// Between the shapes nearest to one, where each length by itself leaves least: the parabola
+/// through what is left with the length below, as it is and above. The same shape where there are
+/// none.
+EffectShape lowest_between(const Effect& effect, const std::vector<EffectShape>& shapes,
+                           const std::vector<TrialFit::Trial>& trials, double square) {
+  EffectShape lowest = effect.shape;
+  const auto left_with = [&](const EffectShape& shape) {
+    const auto at = std::find(shapes.begin(), shapes.end(), shape) - shapes.begin();
+    return trials[static_cast<std::size_t>(at)].square - square;
+  };
+  for (std::size_t k = 0; k < effect.shape.size(); ++k) {
+    const auto [down, up] = nearest_beside(effect, shapes, k);
+    if (down == effect.shape || up == effect.shape) continue;
+    const double below = effect.shape[k] - down[k], above = up[k] - effect.shape[k];
+    const double slope_below = left_with(down) / below, slope_above = left_with(up) / above;
+    const double bends = slope_below + slope_above;
+    if (!(bends > 0.0)) continue;
+    const double off = 0.5 * (above * slope_below - below * slope_above) / bends;
+    lowest[k] += std::clamp(off, -below, above);
+  }
+  return lowest;
+}
+
 /// Between which shapes the derivative of a value is taken; equal: the value is not free.
 Beside moved_a_little(const FlankGeometry& geometry, const Effect& effect, std::size_t k,
                       FreeShapes free) {
@@ -73,7 +96,8 @@ Beside moved_a_little(const FlankGeometry& geometry, const Effect& effect, std::
     beside.down[k] = effect.shape[k] - h;
     return beside;
   }
-  return free == FreeShapes::kAll ? nearest_beside(geometry, effect, k) : beside;
+  if (free != FreeShapes::kAll || !effect.family->nearby) return beside;
+  return nearest_beside(effect, effect.family->nearby(geometry, effect.shape), k);
 }
 
 Extended with_derivatives(const FlankGeometry& geometry, const std::vector<Effect>& effects,
@@ -214,7 +238,13 @@ bool refine_nearby(const FlankGeometry& geometry, TrialFit& fit) {
         best = trials[i];
         shape = tried[i];
       }
-      if (shape.empty()) break;
+      if (shape.empty()) {
+        shape = lowest_between(effects[e], tried, trials, now.square);
+        best = fit.with_shapes(e, {shape}, now.square - kWorthIt).front();
+        if (!(best.square < now.square - kWorthIt) ||
+            best.retained < std::min(now.retained, kToldApart))
+          break;
+      }
       effects[e].shape = shape;
       fit.set_shapes(effects);
       now = best;

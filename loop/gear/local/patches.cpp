@@ -42,8 +42,9 @@ std::vector<int> shuffled(int n) {
 
 class PatchMaker {
  public:
-  PatchMaker(const FlankGeometry& geometry, const Observations& table)
-      : geometry_(geometry), table_(table) {
+  PatchMaker(const FlankGeometry& geometry, const Observations& table,
+             const std::vector<float>* left_um)
+      : geometry_(geometry), table_(table), left_um_(left_um) {
     const int per_height = 2 * geometry.teeth() * kProfileParts;
     face_parts_ = std::clamp(kMostPatches / per_height, 8, 20);
   }
@@ -112,12 +113,14 @@ class PatchMaker {
   }
 
   struct Sum {
-    double weight = 0.0, value = 0.0, roll = 0.0, z = 0.0, x = 0.0, y = 0.0, count = 0.0;
+    double weight = 0.0, value = 0.0, left = 0.0, roll = 0.0, z = 0.0, x = 0.0, y = 0.0,
+           count = 0.0;
     double z_low_mm = 1e300, z_high_mm = -1e300;
-    void add(const Observation& row, const Place& place, double sigma_um) {
+    void add(const Observation& row, const Place& place, double sigma_um, double left_um) {
       const double w = std::isnan(sigma_um) ? 1.0 : 1.0 / (sigma_um * sigma_um);
       weight += w;
       value += w * row.deviation_um;
+      left += w * left_um;
       roll += w * place.roll_mm;
       z += w * place.z_mm;
       x += w * place.polar_direction[0];
@@ -221,11 +224,13 @@ class PatchMaker {
       return patch < 0 ? -1 : patch / static_cast<int>(kPatchesOfWork);
     });
     std::vector<Sum> sums(patches);
+    scatters_um_.resize(patches);
     for_each_piece(pieces, [&](std::size_t piece) {
       rows.for_each(piece, table_, [&](std::size_t i) {
         const Observation& row = table_.rows[i];
         const auto patch = static_cast<std::size_t>(result_.patch_of_row[i]);
-        sums[patch].add(row, table_.place(row), table_.sigma_um(row));
+        sums[patch].add(row, table_.place(row), table_.sigma_um(row),
+                        left_um_ != nullptr ? (*left_um_)[i] : row.deviation_um);
         keep_sample(patch, i);
       });
     });
@@ -241,6 +246,7 @@ class PatchMaker {
   void finish_patch(std::size_t number, const Sum& s) {
     Patches::Patch& patch = result_.patches[number];
     patch.mean_um = s.value / s.weight;
+    scatters_um_[number] = s.left / s.weight;
     patch.count = s.count;
     patch.z_low_mm = s.z_low_mm;
     patch.z_high_mm = s.z_high_mm;
@@ -423,8 +429,7 @@ class PatchMaker {
       --left[axis];
       const int r = patch_at(right), l = patch_at(left);
       if (r == kNone || l == kNone) continue;
-      const double d = result_.patches[l].mean_um - 2.0 * result_.patches[i].mean_um +
-                       result_.patches[r].mean_um;
+      const double d = scatters_um_[l] - 2.0 * scatters_um_[i] + scatters_um_[r];
       const double times = loud_square(l) + 4.0 * loud_square(i) + loud_square(r);
       squares.push_back(d * d / times);
       of_side[keys_[i][4] > 0 ? 1 : 0].push_back(d * d / times);
@@ -437,7 +442,7 @@ class PatchMaker {
         trace[axis] = 0;
         const Place& place = result_.patches[i].places.front().place;
         traces[trace].push_back(
-            {axis == 6 ? place.z_mm : place.roll_mm, result_.patches[i].mean_um, loud_square(i)});
+            {axis == 6 ? place.z_mm : place.roll_mm, scatters_um_[i], loud_square(i)});
       }
       squares.clear();
       of_side = {};
@@ -462,13 +467,12 @@ class PatchMaker {
     for (const auto& [key, i] : at) {
       const auto l = at.find({key.first, key.second - 1}), r = at.find({key.first, key.second + 1});
       if (l == at.end() || r == at.end()) continue;
-      const double d = result_.patches[l->second].mean_um - 2.0 * result_.patches[i].mean_um +
-                       result_.patches[r->second].mean_um;
+      const double d = scatters_um_[l->second] - 2.0 * scatters_um_[i] + scatters_um_[r->second];
       squares.push_back(d * d / 6.0);
     }
     std::map<int, std::array<double, 3>> sums;  // of a flank: count, sum, squares
     for (const auto& [key, i] : at) {
-      const double um = result_.patches[i].mean_um;
+      const double um = scatters_um_[i];
       auto& [count, sum, square] = sums[key.first];
       count += 1.0;
       sum += um;
@@ -496,7 +500,8 @@ class PatchMaker {
     for (const int i : members) {
       const Key& key = keys_[i];
       const Patches::Patch& patch = result_.patches[i];
-      parts.push_back({key[3], key[4] > 0 ? 1U : 0U, key[5], key[6], patch.mean_um, own_of(patch)});
+      parts.push_back(
+          {key[3], key[4] > 0 ? 1U : 0U, key[5], key[6], scatters_um_[i], own_of(patch)});
     }
     LoudPlaces loud = loud_places(parts);
     for (std::size_t k = 0; k < members.size(); ++k)
@@ -582,6 +587,8 @@ class PatchMaker {
 
   const FlankGeometry& geometry_;
   const Observations& table_;
+  const std::vector<float>* left_um_;  ///< of rows; nullptr: as they deviate
+  std::vector<double> scatters_um_;    ///< means over patches of what tells how they scatter
   int face_parts_ = 8;
   std::vector<Key> keys_;
   std::vector<std::vector<Key>> keys_of_pieces_;  ///< of rows: keys in no list, as they come
@@ -592,7 +599,31 @@ class PatchMaker {
 }  // namespace
 
 Patches make_patches(const FlankGeometry& geometry, const Observations& table) {
-  return PatchMaker(geometry, table).make();
+  return PatchMaker(geometry, table, nullptr).make();
+}
+
+bool weigh_again(const FlankGeometry& geometry, const Observations& table,
+                 const std::vector<float>& left_um, Patches& patches) {
+  constexpr double kLouder = 1.3, kMore = 1.5, kShare = 0.02;
+  const auto counts = [](const Patches::Patch& patch) {
+    return patch.kind == ObservationKind::kScanFlank;
+  };
+  if (std::none_of(
+          patches.patches.begin(), patches.patches.end(),
+          [&](const Patches::Patch& patch) { return counts(patch) && patch.loud > kLouder; }))
+    return false;
+  Patches beside = PatchMaker(geometry, table, &left_um).make();
+  std::vector<bool> left_out(patches.patches.size(), false);
+  for (const auto& [patch, weight] : patches.left_out) left_out[patch] = true;
+  std::size_t more = 0, all = 0;
+  for (std::size_t i = 0; i < patches.patches.size(); ++i) {
+    if (left_out[i] || !counts(patches.patches[i])) continue;
+    ++all;
+    more += beside.patches[i].weight > kMore * patches.patches[i].weight ? 1 : 0;
+  }
+  if (!(static_cast<double>(more) > kShare * static_cast<double>(all))) return false;
+  patches = std::move(beside);
+  return true;
 }
 
 }  // namespace trueflank::loop

@@ -68,6 +68,11 @@ struct Patches {
 /// radial values by whole teeth, or by whole traces where fewer than five teeth were measured.
 /// Weights: inverse variance of the patch means of each kind, from differences of neighbours.
 [[nodiscard]] Patches make_patches(const FlankGeometry& geometry, const Observations& table);
+/// Takes the weights of scans with louder places anew from what effects leave of every row: patches
+/// on the slopes of a narrow ridge scatter by where their values lie on it. False, and nothing is
+/// done, where few count for more.
+[[nodiscard]] bool weigh_again(const FlankGeometry& geometry, const Observations& table,
+                               const std::vector<float>& left_um, Patches& patches);
 
 /// Nuisance columns of a table: what the pose of each scan can still do.
 class NuisanceColumns {

@@ -220,6 +220,61 @@ void explain(PartModel& model) {
   finish_choice(model);
 }
 
+namespace {
+
+/// The same effects with their places and widths where least is left.
+std::vector<Effect> refined(const PartModel& model, const std::vector<Effect>& effects) {
+  if (!can_be_refined(effects, first_told_here(model))) return effects;
+  TrialFit fit = fit_to_refine(model.geometry, model.table, model.patches, effects);
+  refine_shapes(model.geometry, first_told_here(model), fit);
+  (void)refine_nearby(model.geometry, fit);
+  return fit.effects();
+}
+
+/// Small forms beside a large one of their kind may be what its place and width had left.
+void drop_what_mends_a_form(PartModel& model) {
+  constexpr double kSmall = 0.5, kLittle = 25.0;  // chi-square: five errors
+  for (std::size_t e = model.effects.size(); e-- > first_told_here(model);) {
+    const Effect small = model.effects[e];
+    const auto fit = fit_of(model, model.effects);
+    const auto size_um = [&](std::size_t of) { return fit->effect_size_um(static_cast<int>(of)); };
+    bool beside_a_large_one = false;
+    for (std::size_t f = 0; f < model.effects.size(); ++f)
+      beside_a_large_one =
+          beside_a_large_one ||
+          (small.is_term() && small.family->nearby && model.effects[f].family == small.family &&
+           model.effects[f].flank == small.flank && size_um(e) < kSmall * size_um(f));
+    if (!beside_a_large_one) continue;
+    std::vector<Effect> without = model.effects;
+    without.erase(without.begin() + static_cast<std::ptrdiff_t>(e));
+    without = refined(model, without);
+    if (fit_of(model, without)->residual_square() > fit->residual_square() + kLittle) continue;
+    remove_effect(model, e);
+    model.effects = std::move(without);
+  }
+}
+
+}  // namespace
+
+bool weigh_beside_forms(PartModel& model) {
+  constexpr int kMostTurns = 2;
+  if (model.effects.empty() || model.table->points_mm.empty() || is_rounding(model)) return false;
+  bool any = false;
+  for (int turn = 0; turn < kMostTurns; ++turn) {
+    const auto left_um = fit_of(model, model.effects)->residuals_um();
+    if (!weigh_again(model.geometry, model.table, *left_um, model.patches)) break;
+    any = true;
+    forget_roughness_of_forms(model);
+    forget_fits(model);
+    leave_out_across_steps(model);
+    model.effects = refined(model, model.effects);
+    drop_what_mends_a_form(model);
+    std::copy_n(model.effects.begin(), model.options.given.size(), model.options.given.begin());
+    leave_out_across_steps(model);
+  }
+  return any;
+}
+
 bool is_rounding(const PartModel& model) {
   constexpr double kFileRounding_um = 0.01, kClearly = 1.1;
   if (least_plain_rms_um(model.geometry, model.table, model.patches) > kClearly * kFileRounding_um)

@@ -11,6 +11,10 @@ namespace trueflank::loop {
 void move_back_what_is_off_centre(PartModel& model);
 /// Chooses until neither shapes nor places nor poses move any more, some rounds.
 void explain(PartModel& model);
+/// Of scans: values on the slopes of narrow forms scatter by where they lie there. Beside these
+/// forms they count as others do, and places and widths are sought once more. True where that is
+/// so.
+[[nodiscard]] bool weigh_beside_forms(PartModel& model);
 /// What is smaller than the rounding of 32-bit mesh files is no finding, however regular it is.
 [[nodiscard]] bool is_rounding(const PartModel& model);
 /// Columns of candidates that stayed as they were are kept.

@@ -63,6 +63,21 @@ void explain_what_is_left(PartModel& model) {
   leave_out_across_steps(model);
 }
 
+void tell_what_is_left(PartModel& model) {
+  model.remainder = remainder_of(model, model.effects, RemainderOf::kAll);
+  while (structure_is_left(model) && name_what_is_left(model))
+    model.remainder = remainder_of(model, model.effects, RemainderOf::kAll);
+  while (structure_is_left(model) && add_form_that_is_left(model)) {
+    tell_what_one_flank_has(model);
+    model.remainder = remainder_of(model, model.effects, RemainderOf::kAll);
+  }
+  if (!structure_is_left(model)) return;
+  if (model.remainder.empty() && model.effects != model.left_beside) ask_what_is_left(model);
+  if (!structure_is_left(model)) return;
+  doubt_names_below_what_is_left(model);
+  model.remainder = remainder_of(model, model.effects, RemainderOf::kAll);
+}
+
 }  // namespace
 
 void explain_part(PartModel& model) {
@@ -112,18 +127,14 @@ void explain_part(PartModel& model) {
   tell_likeliest_names(model);
   tell_the_usual_of_equals(model);
   drop_names_that_may_be_nothing(model);
-  model.remainder = remainder_of(model, model.effects, RemainderOf::kAll);
-  while (structure_is_left(model) && name_what_is_left(model))
-    model.remainder = remainder_of(model, model.effects, RemainderOf::kAll);
-  while (structure_is_left(model) && add_form_that_is_left(model)) {
-    tell_what_one_flank_has(model);
-    model.remainder = remainder_of(model, model.effects, RemainderOf::kAll);
-  }
-  if (!structure_is_left(model)) return;
-  if (model.remainder.empty() && model.effects != model.left_beside) ask_what_is_left(model);
-  if (!structure_is_left(model)) return;
-  doubt_names_below_what_is_left(model);
-  model.remainder = remainder_of(model, model.effects, RemainderOf::kAll);
+  tell_what_is_left(model);
+}
+
+void explain_measured_part(PartModel& model) {
+  explain_part(model);
+  if (!weigh_beside_forms(model)) return;
+  look_at_neighbours(model);
+  tell_what_is_left(model);
 }
 
 }  // namespace trueflank::loop
