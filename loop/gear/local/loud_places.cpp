@@ -296,4 +296,28 @@ std::vector<LouderPlace> still_louder(const FlankGeometry& geometry, const Obser
   return result;
 }
 
+bool weigh_again(const FlankGeometry& geometry, const Observations& table,
+                 const std::vector<float>& left_um, Patches& patches) {
+  constexpr double kLouder = 1.3, kMore = 1.5, kShare = 0.02;
+  const auto counts = [](const Patches::Patch& patch) {
+    return patch.kind == ObservationKind::kScanFlank;
+  };
+  if (std::none_of(
+          patches.patches.begin(), patches.patches.end(),
+          [&](const Patches::Patch& patch) { return counts(patch) && patch.loud > kLouder; }))
+    return false;
+  Patches beside = make_patches(geometry, table, &left_um);
+  std::vector<bool> left_out(patches.patches.size(), false);
+  for (const auto& [patch, weight] : patches.left_out) left_out[patch] = true;
+  std::size_t more = 0, all = 0;
+  for (std::size_t i = 0; i < patches.patches.size(); ++i) {
+    if (left_out[i] || !counts(patches.patches[i])) continue;
+    ++all;
+    more += beside.patches[i].weight > kMore * patches.patches[i].weight ? 1 : 0;
+  }
+  if (!(static_cast<double>(more) > kShare * static_cast<double>(all))) return false;
+  patches = std::move(beside);
+  return true;
+}
+
 }  // namespace trueflank::loop

@@ -12,6 +12,7 @@
 
 #include "trueflank/base/threads.h"
 #include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/discovery/mixed_bits.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/gear/local/loud_places.h"
 #include "trueflank/loop/gear/local/neighbour_variance.h"
@@ -273,15 +274,8 @@ class PatchMaker {
     if (is_single(result_.patches[patch].kind)) return;
     Sample& sample = samples_[patch];
     std::uint64_t at = sample.count++;
-    if (at >= kMostSamples) at = drawn(patch, sample.count) % sample.count;
+    if (at >= kMostSamples) at = mixed_bits(sample.count, patch << 32U) % sample.count;
     if (at < kMostSamples) sample.rows[at] = static_cast<std::uint32_t>(row);
-  }
-  /// The mixing of splitmix64.
-  static std::uint64_t drawn(std::uint64_t patch, std::uint64_t number) {
-    std::uint64_t x = (patch << 32U) + number * 0x9E3779B97F4A7C15U;
-    x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9U;
-    x = (x ^ (x >> 27U)) * 0x94D049BB133111EBU;
-    return x ^ (x >> 31U);
   }
 
   /// What may share its random error: a flank of a scan, a trace, a single value. Where there are
@@ -598,32 +592,9 @@ class PatchMaker {
 
 }  // namespace
 
-Patches make_patches(const FlankGeometry& geometry, const Observations& table) {
-  return PatchMaker(geometry, table, nullptr).make();
-}
-
-bool weigh_again(const FlankGeometry& geometry, const Observations& table,
-                 const std::vector<float>& left_um, Patches& patches) {
-  constexpr double kLouder = 1.3, kMore = 1.5, kShare = 0.02;
-  const auto counts = [](const Patches::Patch& patch) {
-    return patch.kind == ObservationKind::kScanFlank;
-  };
-  if (std::none_of(
-          patches.patches.begin(), patches.patches.end(),
-          [&](const Patches::Patch& patch) { return counts(patch) && patch.loud > kLouder; }))
-    return false;
-  Patches beside = PatchMaker(geometry, table, &left_um).make();
-  std::vector<bool> left_out(patches.patches.size(), false);
-  for (const auto& [patch, weight] : patches.left_out) left_out[patch] = true;
-  std::size_t more = 0, all = 0;
-  for (std::size_t i = 0; i < patches.patches.size(); ++i) {
-    if (left_out[i] || !counts(patches.patches[i])) continue;
-    ++all;
-    more += beside.patches[i].weight > kMore * patches.patches[i].weight ? 1 : 0;
-  }
-  if (!(static_cast<double>(more) > kShare * static_cast<double>(all))) return false;
-  patches = std::move(beside);
-  return true;
+Patches make_patches(const FlankGeometry& geometry, const Observations& table,
+                     const std::vector<float>* left_um) {
+  return PatchMaker(geometry, table, left_um).make();
 }
 
 }  // namespace trueflank::loop

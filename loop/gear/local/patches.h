@@ -66,8 +66,10 @@ struct Patches {
 /// Folds: 0 is the locked hold-out, about a fifth. A scan is held out in patches of one tooth and
 /// one of five height bands, so that every tooth and every height is also seen; traces, index and
 /// radial values by whole teeth, or by whole traces where fewer than five teeth were measured.
-/// Weights: inverse variance of the patch means of each kind, from differences of neighbours.
-[[nodiscard]] Patches make_patches(const FlankGeometry& geometry, const Observations& table);
+/// Weights: inverse variance of the patch means of each kind, from differences of neighbours; where
+/// it is given, from those of what is left of every row.
+[[nodiscard]] Patches make_patches(const FlankGeometry& geometry, const Observations& table,
+                                   const std::vector<float>* left_um = nullptr);
 /// Takes the weights of scans with louder places anew from what effects leave of every row: patches
 /// on the slopes of a narrow ridge scatter by where their values lie on it. False, and nothing is
 /// done, where few count for more.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "trueflank/loop/discovery/mixed_bits.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 
 namespace trueflank::loop {
@@ -23,10 +24,7 @@ std::pair<int, int> kind_and_source(const Observation& row) {
 
 /// A number of 0 to 1 for each row, as if at random: its number's bits, mixed.
 double row_share(std::uint64_t row) {
-  std::uint64_t bits = (row + 1) * 0x9e3779b97f4a7c15;
-  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9;
-  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111eb;
-  return static_cast<double>((bits ^ (bits >> 31)) >> 11) * 0x1p-53;
+  return static_cast<double>(mixed_bits(row + 1) >> 11) * 0x1p-53;
 }
 
 }  // namespace
