@@ -276,6 +276,14 @@ def predicted_helix(gear, result, tooth, side, z):
                 if "form" in term:
                     total += named_form(gear, term, tooth, side, roll, z, v)
                     continue
+                if "waves_over_face" in term:  # that march from tooth to tooth
+                    if term["waves_over_profile"] != 0:
+                        raise AssertionError(f"no formula here for the form of {term}")
+                    since = (tooth - term.get("from_tooth", 1)) % gear.teeth
+                    angle = 2 * math.pi * (term["waves_over_face"] * z / gear.nominal["face_width_mm"] +
+                                           term["order"] * since / gear.teeth)
+                    total += term["cos_um"] * numpy.cos(angle) + term["sin_um"] * numpy.sin(angle)
+                    continue
                 if "tooth" in term or term["profile_degree"] > 0:
                     continue  # constant over a helix trace, or nearly so
                 if "restarts_every" in term:  # rises evenly, and anew after so many teeth

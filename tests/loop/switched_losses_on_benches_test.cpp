@@ -52,9 +52,9 @@ void warm_up_and_down(DrawnBench& bench) {
                                           swing * std::sin(2.0 * M_PI * row.row / rows + phase)));
 }
 
-TEST(SwitchedLossesOnBenches, AThermostatIsToldWithItsTwoTemperatures) {
-  expect_all(8300, 4, [](Answers& answers, std::uint64_t seed) {
-    DrawnBench bench = any_rows(seed, seed % 2 == 0);
+void expect_thermostats(std::uint64_t first_seed, int count, int rows) {
+  expect_all(first_seed, count, [rows](Answers& answers, std::uint64_t seed) {
+    DrawnBench bench = any_rows(seed, seed % 2 == 0, rows);
     warm_up_and_down(bench);
     const auto warmth = [](const DrawnRow& r) { return r.warm_c; };
     const double lower = place_of(bench, bench.between(0.25, 0.35), warmth) - 0.05,
@@ -71,6 +71,15 @@ TEST(SwitchedLossesOnBenches, AThermostatIsToldWithItsTwoTemperatures) {
         [&](const DrawnRow& r) { return is_on[static_cast<std::size_t>(r.row)] ? size : 0.0; },
         {{"amplitude_nm", size}, {"on_above_c", upper}, {"off_below_c", lower}});
   });
+}
+
+TEST(SwitchedLossesOnBenches, AThermostatIsToldWithItsTwoTemperatures) {
+  expect_thermostats(8300, 4, 0);
+}
+
+// It goes on and off between the rows on which it is sought.
+TEST(SwitchedLossesOnBenches, AThermostatOfALogIsToldWithItsTwoTemperatures) {
+  expect_thermostats(8350, survey_size(1, 4), 3000);
 }
 
 TEST(SwitchedLossesOnBenches, AShareOfTheRowBeforeIsOneForm) {

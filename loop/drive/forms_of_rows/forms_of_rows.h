@@ -8,11 +8,6 @@
 // Forms that count rows or turns of no shaft: where they lie, for who seeks them.
 namespace trueflank::loop::drive_effects {
 
-/// All rows of the log of which a table may hold some: a shape means the same in both.
-[[nodiscard]] inline const std::vector<BenchPoint>& rows_of_log(const BenchTable& table) {
-  return table.all_points != nullptr ? *table.all_points : table.points;
-}
-
 /// Few growing steps to both sides, 0 first: for shapes of several values that are moved together.
 [[nodiscard]] inline std::vector<double> coarse_steps(double first, double last) {
   constexpr double kGrowth = 1.8;

@@ -14,7 +14,7 @@
 namespace trueflank::loop::drive_effects {
 
 double place_of_pit(const BenchTable& table, const BenchPoint& p, const DriveShape& s) {
-  const auto& all = rows_of_log(table);
+  const auto& all = table.every_row();
   const double middle = 0.5 * (all.front().angle_rad + all.back().angle_rad),
                order = order_of_pits(table, s),
                off = order * (p.angle_rad - middle) / kTwoPi - s[kPitCentre];

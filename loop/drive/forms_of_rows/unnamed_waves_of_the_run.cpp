@@ -21,7 +21,7 @@ double periods_of_run(double share, double times, double stretch) {
 }
 
 double share_of_run(const BenchTable& table, const BenchPoint& p) {
-  return p.row / std::max(1.0, static_cast<double>(rows_of_log(table).back().row));
+  return p.row / std::max(1.0, static_cast<double>(table.every_row().back().row));
 }
 
 double run_wave_nm(const DriveContext& context, const BenchPoint& p, double of) {
@@ -36,7 +36,7 @@ double run_wave_stretch(const DriveShape& s) { return s.size() > kRwStretch ? s[
 /// Rows to a period at the start of the run, and at its end.
 double rows_to_a_period(const BenchTable& table, const DriveShape& s, bool at_end) {
   const double stretch = run_wave_stretch(s),
-               all = static_cast<double>(rows_of_log(table).back().row) / s[kRwTimes];
+               all = static_cast<double>(table.every_row().back().row) / s[kRwTimes];
   if (std::abs(stretch) < 1e-4) return all;
   return all * stretch / std::expm1(stretch) * (at_end ? std::exp(stretch) : 1.0);
 }
@@ -45,7 +45,7 @@ double rows_to_a_period(const BenchTable& table, const DriveShape& s, bool at_en
 int line_of_most(const DriveContext& context, const DriveShape& s, double amount) {
   const bool least = amount < 0.0 && s[kRwFrom] == double(kRwToEitherSide);
   double before = kNaN;
-  for (const BenchPoint& p : rows_of_log(context.table)) {
+  for (const BenchPoint& p : context.table.every_row()) {
     const double periods = periods_of_run(share_of_run(context.table, p), s[kRwTimes],
                                           run_wave_stretch(s)) -
                            s[kRwPhase] - (least ? 0.5 : 0.0),
