@@ -218,7 +218,11 @@ bool can_be_refined(const std::vector<Effect>& effects, std::size_t first) {
   return any;
 }
 
-bool refine_nearby(const FlankGeometry& geometry, TrialFit& fit) {
+namespace {
+
+enum class Steps { kAsListed, kBetweenToo };
+
+bool refine_to_nearby(const FlankGeometry& geometry, TrialFit& fit, Steps steps) {
   constexpr double kWorthIt = 4.0;  // chi-square
   constexpr int kMostSteps = 8;
   bool moved = false;
@@ -239,6 +243,7 @@ bool refine_nearby(const FlankGeometry& geometry, TrialFit& fit) {
         shape = tried[i];
       }
       if (shape.empty()) {
+        if (steps == Steps::kAsListed) break;
         shape = lowest_between(effects[e], tried, trials, now.square);
         best = fit.with_shapes(e, {shape}, now.square - kWorthIt).front();
         if (!(best.square < now.square - kWorthIt) ||
@@ -252,6 +257,16 @@ bool refine_nearby(const FlankGeometry& geometry, TrialFit& fit) {
     }
   }
   return moved;
+}
+
+}  // namespace
+
+bool refine_nearby(const FlankGeometry& geometry, TrialFit& fit) {
+  return refine_to_nearby(geometry, fit, Steps::kAsListed);
+}
+
+bool refine_between_steps(const FlankGeometry& geometry, TrialFit& fit) {
+  return refine_to_nearby(geometry, fit, Steps::kBetweenToo);
 }
 
 void refine_shapes(const FlankGeometry& geometry, std::size_t first, TrialFit& fit) {

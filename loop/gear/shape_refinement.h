@@ -31,6 +31,9 @@ inline constexpr double kToldApart = 0.1;
 /// (EffectFamily::nearby) that fit the single values better and are told apart from all others.
 /// True where any moved.
 bool refine_nearby(const FlankGeometry& geometry, TrialFit& fit);
+/// The same, and where no step is better to between two of them: places and widths of narrow forms
+/// lie closer together than the steps.
+bool refine_between_steps(const FlankGeometry& geometry, TrialFit& fit);
 bool refine_nearby(const FlankGeometry& geometry, const SharedTable& table, const Patches& patches,
                    std::vector<Effect>& effects);
 

@@ -227,7 +227,7 @@ std::vector<Effect> refined(const PartModel& model, const std::vector<Effect>& e
   if (!can_be_refined(effects, first_told_here(model))) return effects;
   TrialFit fit = fit_to_refine(model.geometry, model.table, model.patches, effects);
   refine_shapes(model.geometry, first_told_here(model), fit);
-  (void)refine_nearby(model.geometry, fit);
+  (void)refine_between_steps(model.geometry, fit);
   return fit.effects();
 }
 
