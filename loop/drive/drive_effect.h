@@ -253,6 +253,9 @@ struct DriveFamily : EffectFacts {
   /// @}
 };
 
+/// Of families that are found by a scan, or asked as whole forms: none is tried by itself.
+[[nodiscard]] inline std::vector<DriveShape> no_shapes(const DriveContext&) { return {}; }
+
 struct DriveEffect {
   const DriveFamily* family = nullptr;
   DriveShape shape;

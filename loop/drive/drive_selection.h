@@ -196,6 +196,7 @@ class DriveSelection {
   void tell_as_waves_of_the_run(DriveOutcome& outcome);
   /// Losses that nearly every bench has and that hold what is the same everywhere of others.
   [[nodiscard]] std::vector<DriveEffect> plain_losses() const;
+  [[nodiscard]] std::vector<DriveEffect> with_plain_losses(std::vector<DriveEffect> effects) const;
   /// The names that may stand beside what comes again, without the plain ones.
   [[nodiscard]] OneForm names_beside_what_comes_again(const DriveOutcome& outcome) const;
   /// The best of these sets, of which the last is the form, with any of the plain losses, where it
@@ -248,6 +249,9 @@ class DriveSelection {
   [[nodiscard]] OneForm as_it_is(const DriveOutcome& outcome) const;
   /// The last of the set is new, and surer than what it stands for by `gain` (chi-square).
   void exchange_as_sure(DriveOutcome& outcome, const OneForm& set, double gain);
+  /// The same, where the rows held out do not deny the set alone: else the outcome stays, and how
+  /// sure the set was is kept. True where it was exchanged.
+  [[nodiscard]] bool exchange_unless_denied(DriveOutcome& outcome, const OneForm& set, double gain);
   /// `name_is_open`: the names it stands for explain as much.
   void exchange_effects(DriveOutcome& outcome, const OneForm& set, bool name_is_open);
   /// What follows the temperature may follow the run in which the drive grew warm: where that leaves surely

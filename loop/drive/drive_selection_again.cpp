@@ -184,6 +184,11 @@ std::vector<DriveEffect> DriveSelection::plain_losses() const {
   return plain;
 }
 
+std::vector<DriveEffect> DriveSelection::with_plain_losses(std::vector<DriveEffect> effects) const {
+  for (const DriveEffect& plain : plain_losses()) effects.push_back(plain);
+  return effects;
+}
+
 DriveSelection::OneForm DriveSelection::names_beside_what_comes_again(
     const DriveOutcome& outcome) const {
   OneForm set;
@@ -261,13 +266,7 @@ bool DriveSelection::tell_if_clearly(DriveOutcome& outcome, const std::vector<Pr
   const double gain = now.figure(noise) - least -
                       (1.0 - 1.0 / shared) * std::max(0.0, now.square - best->set.square) / noise;
   if (gain < (fewer ? kAsOne : kClearly)) return false;
-  const DriveOutcome before = outcome;
-  const DriveState state = state_;
-  exchange_as_sure(outcome, best->set, gain);
-  if (!is_denied(outcome) || is_denied(before)) return true;
-  outcome = before;
-  state_ = state;
-  return false;
+  return exchange_unless_denied(outcome, best->set, gain);
 }
 
 void DriveSelection::tell_as_pits(DriveOutcome& outcome) {
@@ -279,9 +278,8 @@ void DriveSelection::tell_as_pits(DriveOutcome& outcome) {
                   [](const DriveEffect& e) { return e.family->named && e.order() == 0.0; }) &&
       !leaves_structure(outcome);
   if (understood) return;
-  OneForm base = names_beside_what_comes_again(outcome);
-  std::vector<DriveEffect> full = base.effects;
-  for (const DriveEffect& plain : plain_losses()) full.push_back(plain);
+  const OneForm base = names_beside_what_comes_again(outcome);
+  const std::vector<DriveEffect> full = with_plain_losses(base.effects);
   const DriveContext here = context();
   const Eigen::VectorXd left =
       value_ - DriveFit(here, value_, full, FitRows::kTraining).explained_nm();
@@ -321,9 +319,8 @@ void DriveSelection::tell_as_waves_of_the_run(DriveOutcome& outcome) {
   if (table_.points.size() < kFewestRows || !forms::has_one_course(context()) ||
       (gains_power() && !losses_beside_gains_))
     return;
-  OneForm base = names_beside_what_comes_again(outcome);
-  std::vector<DriveEffect> full = base.effects;
-  for (const DriveEffect& plain : plain_losses()) full.push_back(plain);
+  const OneForm base = names_beside_what_comes_again(outcome);
+  const std::vector<DriveEffect> full = with_plain_losses(base.effects);
   const DriveContext here = context();
   const Eigen::VectorXd left =
       value_ - DriveFit(here, value_, full, FitRows::kTraining).explained_nm();

@@ -167,16 +167,10 @@ void DriveSelection::tell_as_levels_of_the_run(DriveOutcome& outcome) {
   const double gain = now.figure(noise) - least +
                       cost_of_changes(outcome.rows, changes_in_run(outcome.effects)) -
                       (1.0 - 1.0 / shared) * std::max(0.0, now.square - best.square) / noise;
-  const double of_effects =
-      kOfAnEffect * static_cast<double>(outcome.effects.size() - best.effects.size());
+  const double of_effects = kOfAnEffect * (static_cast<double>(outcome.effects.size()) -
+                                           static_cast<double>(best.effects.size()));
   if (gain < (fewer ? kAsOne - of_effects : kClearly)) return;
-  const DriveOutcome before = outcome;
-  const DriveState state = state_;
-  exchange_as_sure(outcome, best, gain);
-  if (!is_denied(outcome) || is_denied(before)) return;
-  most_denied_ = std::max(most_denied_, gain);
-  outcome = before;
-  state_ = state;
+  (void)exchange_unless_denied(outcome, best, gain);
 }
 
 }  // namespace trueflank::loop

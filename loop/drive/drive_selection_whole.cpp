@@ -297,14 +297,20 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
       follow = !(e == form || (best.from[e] < 0 && !best.effects[e].family->named)) ||
                most_rows_follow(here, value_, best.effects, e);
     if (!follow) continue;
-    const DriveOutcome before = outcome;
-    const DriveState state = state_;
-    exchange_as_sure(outcome, best, gain);
-    if (!is_denied(outcome) || is_denied(before)) return true;
-    most_denied_ = std::max(most_denied_, gain);
-    outcome = before;
-    state_ = state;
+    if (exchange_unless_denied(outcome, best, gain)) return true;
   }
+  return false;
+}
+
+bool DriveSelection::exchange_unless_denied(DriveOutcome& outcome, const OneForm& set,
+                                            double gain) {
+  const DriveOutcome before = outcome;
+  const DriveState state = state_;
+  exchange_as_sure(outcome, set, gain);
+  if (!is_denied(outcome) || is_denied(before)) return true;
+  most_denied_ = std::max(most_denied_, gain);
+  outcome = before;
+  state_ = state;
   return false;
 }
 

@@ -63,6 +63,7 @@ TEST(ProfilesAtHeights, ShowATwistThatIsOppositeOnTheFlanks) {
     const auto result =
         closed(spur(30), of, ++seed, [](const FlankSpot& s) { return 12.0 * s.side * s.u * s.v; });
     expect_all_explained(of, result);
+    ASSERT_FALSE(result.effects.empty()) << words(of, result);
     EXPECT_FALSE(has_name(result)) << words(of, result);
     EXPECT_NEAR(amplitude_of_first(result), 12.0, 1.2) << words(of, result);
   }

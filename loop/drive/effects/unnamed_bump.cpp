@@ -50,7 +50,7 @@ DriveFamily unnamed_bump() {
       {.continuous = true, .limits = [](const DriveContext&) { return std::pair(0.004, 0.2); }},
       {}};
   // Waves and parts of a turn that were found say where to look.
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.turns_per_turn = first_value;
   f.kind = [](const DriveShape& s) {
     return 2 * static_cast<int>(s[kBumpDirection]) + (s[kBumpOrder] == 1.0 ? 1 : 0);
@@ -118,7 +118,7 @@ DriveFamily unnamed_cusps() {
   f.stands_alone = true;
   f.dearer = kDearerForms;
   f.shape_values = {{}, {.continuous = true, .is_place = true, .reach = 0.03}};
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.whole_shapes = [](const DriveContext& context) {
     constexpr int kPlaces = 30;
     std::vector<DriveShape> shapes;

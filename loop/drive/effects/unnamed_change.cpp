@@ -102,7 +102,7 @@ DriveFamily unnamed_spell() {
   f.shape_names = {"what", "order", "begin", "length"};
   f.preference = 8;
   // Its places are too many to try: a scan of what is left proposes them.
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.changes_in_run = [](const DriveShape& s) { return s[1] == 0.0 ? 2.0 : 0.0; };
   f.shape_of_spell = [](double what, double order, double begin, double length) {
     return DriveShape{what, order, begin, length};

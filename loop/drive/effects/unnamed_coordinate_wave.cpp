@@ -165,7 +165,7 @@ DriveFamily coordinate_wave(bool reads) {
       {.continuous = true, .is_place = true, .reach = 0.12},
       {},
       {}};
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.whole_shapes = [reads](const DriveContext& context) { return cw_whole_shapes(context, reads); };
   f.kind = [](const DriveShape& s) { return static_cast<int>(s[kCwOver]); };
   f.kin_shapes = [](const DriveShape& s) {

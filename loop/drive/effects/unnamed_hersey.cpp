@@ -66,7 +66,7 @@ DriveFamily unnamed_hersey() {
   f.preference = 7;
   f.stands_alone = true;
   f.shape_values = {{.continuous = true, .limits = knee_limits}, {}};
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.whole_shapes = [](const DriveContext& context) {
     constexpr double kStep = 1.4;
     constexpr int kFewestLevels = 4;

@@ -71,7 +71,7 @@ DriveFamily unnamed_lag() {
   f.asked_of_one_direction = true;
   f.dearer = kDearerForms;
   f.shape_values = {{}, {}};
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.whole_shapes = [](const DriveContext& context) {
     std::vector<DriveShape> shapes;
     if (!has_one_course(context)) return shapes;

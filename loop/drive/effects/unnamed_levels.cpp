@@ -67,7 +67,7 @@ DriveFamily levels_of_run_family(bool reads) {
   f.preference = 7;
   f.stands_alone = true;
   f.asked_of_one_direction = true;
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.shape_of_levels = [](double what, const std::vector<double>& changes,
                          const std::vector<double>& levels) {
     double most = 1e-300;

@@ -36,7 +36,7 @@ DriveFamily power_of_speed(bool root) {
        .limits = [limits = std::pair(least, most)](const DriveContext&) { return limits; }}};
   // Found alone it is drag that grows with the speed, which has names: it is tried in place of
   // pieces.
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.all_shapes = [root](const DriveContext& context, const DriveShape* about) {
     std::vector<DriveShape> powers;
     if (context.table.levels[1] < 4) return powers;

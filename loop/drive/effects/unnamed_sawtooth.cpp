@@ -79,7 +79,7 @@ DriveFamily sawtooth(bool reads) {
   f.preference = 7;
   f.stands_alone = true;
   f.shape_values = {{}, {.continuous = true, .is_place = true, .reach = 0.03}, {}, {}};
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.whole_shapes = [reads](const DriveContext& context) { return saw_shapes(context, reads); };
   f.falls_in_steps = true;
   f.kin_shapes = [](const DriveShape& s) {

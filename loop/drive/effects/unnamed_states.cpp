@@ -56,7 +56,7 @@ DriveFamily unnamed_states() {
   f.shape_names = {"what"};
   f.preference = 7;
   f.stands_alone = true;
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.shape_of_states = [](double what, const std::vector<double>& changes) {
     DriveShape shape{what};
     shape.insert(shape.end(), changes.begin(), changes.end());

@@ -70,7 +70,7 @@ DriveFamily unnamed_reading_in_steps() {
       {.continuous = true, .is_place = true, .reach = 0.1},
       {}};
   f.falls_in_steps = true;
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.whole_shapes = [](const DriveContext& context) {
     constexpr int kPlacesOfStep = 10;
     constexpr double kRowsEach = 5.0, kEach = 0.25;

@@ -23,7 +23,7 @@ DriveFamily unnamed_wander() {
   f.preference = 8;
   f.columns = [](const DriveShape& shape) { return 1 + degree_of(shape) - first_degree(shape); };
   // So many columns are no candidates until a scan of what is left finds something slow.
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.shape_of_wander = [](double what, int degree) { return DriveShape{what, double(degree)}; };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& shape,
                   double* c) {

@@ -228,7 +228,7 @@ DriveFamily wave_of_sizes(WaveKind kind) {
   f.stands_alone = true;
   f.shape_values = {{}, {}, {}, {.continuous = true, .is_place = true}};
   // Waves of one size that were found, and the spectra of parts, say where to look.
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.order = [](const DriveShape& s) {
     return s[kWaveHow] == double(kWaveByRows) ? 0.0 : s[kWaveOrder];
   };

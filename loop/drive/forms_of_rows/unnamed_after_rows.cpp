@@ -49,7 +49,7 @@ DriveFamily first_rows() {
   f.preference = 7;
   f.stands_alone = true;
   f.dearer = kDearerForms;
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.whole_shapes = [](const DriveContext& context) {
     std::vector<DriveShape> shapes;
     if (has_dwells(context.table))
@@ -145,7 +145,7 @@ DriveFamily left_behind() {
       {},
       {.continuous = true, .limits = [](const DriveContext&) { return std::pair(1.5, 60.0); }},
       {}};
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.whole_shapes = [](const DriveContext& context) {
     constexpr std::size_t kFewestRows = 100;
     std::vector<DriveShape> shapes;

@@ -101,7 +101,7 @@ DriveFamily by_file(Told told) {
   f.only_positive = told == Told::kMoreLost;
   if (told == Told::kLessLost)
     f.plausible = [](const DriveModel&, double amount) { return amount < 0.0; };
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.whole_shapes = [reads](const DriveContext& context) { return file_shapes(context, reads); };
   f.kind = [](const DriveShape& s) {
     return kMostFilesAsked * static_cast<int>(s[kFileOf]) + static_cast<int>(s[kFileNumber]);

@@ -89,7 +89,7 @@ DriveFamily unnamed_pits() {
                     {.continuous = true,
                      .limits = [](const DriveContext&) { return std::pair(0.004, kWidestPit); }},
                     {}};
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.kind = [](const DriveShape& s) { return static_cast<int>(s[kPitSharp]); };
   f.all_shapes = [](const DriveContext&, const DriveShape* about) { return pits_about(about); };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,

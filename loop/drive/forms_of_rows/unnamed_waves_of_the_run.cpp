@@ -119,7 +119,7 @@ DriveFamily waves_of_the_run(bool stretches) {
     f.shape_names.emplace_back("stretch");
     f.shape_values.push_back({.continuous = true, .is_place = true, .reach = 0.1});
   }
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.kind = [](const DriveShape& s) { return static_cast<int>(s[kRwOf]); };
   f.all_shapes = [](const DriveContext& context, const DriveShape* about) {
     return run_waves_about(context, about);

@@ -4,20 +4,15 @@
 #include <bit>
 #include <utility>
 
+#include "trueflank/loop/discovery/mixed_bits.h"
+
 namespace trueflank::loop {
 namespace {
 
-/// Together with what was there, well spread (the finisher of splitmix64).
-std::uint64_t mixed(std::uint64_t key, std::uint64_t more) {
-  std::uint64_t x = key * 0x9e3779b97f4a7c15U + more;
-  x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
-  return x ^ (x >> 31U);
-}
-
 std::uint64_t key_of(const Effect& effect, std::uint64_t rows) {
-  std::uint64_t key = mixed(rows, static_cast<std::uint64_t>(effect.flank));
-  for (const double value : effect.shape) key = mixed(key, std::bit_cast<std::uint64_t>(value));
+  std::uint64_t key = mixed_bits(rows, static_cast<std::uint64_t>(effect.flank));
+  for (const double value : effect.shape)
+    key = mixed_bits(key, std::bit_cast<std::uint64_t>(value));
   return key;
 }
 
@@ -25,7 +20,7 @@ std::uint64_t key_of(const Effect& effect, std::uint64_t rows) {
 
 std::uint64_t EffectValues::key_of(const std::vector<std::uint32_t>& rows) {
   std::uint64_t key = rows.size();
-  for (const std::uint32_t row : rows) key = mixed(key, row);
+  for (const std::uint32_t row : rows) key = mixed_bits(key, row);
   return key;
 }
 

@@ -94,7 +94,7 @@ DriveFamily band(bool reads) {
         return std::pair(0.0, 1.0);
       }};
   f.shape_values = {{}, edge, edge, {}, {}};
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.whole_shapes = [reads](const DriveContext& context) { return band_shapes(context, reads); };
   f.kin_shapes = [](const DriveShape& s) {
     DriveShape outside = s;

@@ -163,7 +163,7 @@ DriveFamily corner(bool reads) {
         return std::pair(kCornerNearest, kCornerFarthest);
       }};
   f.shape_values = {{}, place, {}, {}, {}, place, {}, {}, {}};
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.whole_shapes = [reads](const DriveContext& context) { return corner_shapes(context, reads); };
   f.kind = [](const DriveShape& s) { return static_cast<int>(s[kCornerOver] + s[kCornerOverToo]); };
   f.kin_shapes = [](const DriveShape& s) {

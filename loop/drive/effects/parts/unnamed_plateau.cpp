@@ -98,7 +98,7 @@ DriveFamily plateau(bool stepped) {
   f.shape_names = {"over", "mirrored", "from", "to", "what", stepped ? "part" : "nothing_below"};
   f.preference = 7;
   f.stands_alone = true;
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.kind = [](const DriveShape& s) {
     return static_cast<int>(8.0 * s[kPlateauMirrored] + s[kPlateauOver]);
   };
@@ -271,7 +271,7 @@ DriveFamily bow_of_run(bool reading) {
   f.stands_alone = true;
   f.follows_the_run = !reading;
   f.shape_values = {{}};
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.whole_shapes = [reading](const DriveContext& context) {
     if (!has_one_course(context)) return std::vector<DriveShape>{};
     return reading ? std::vector<DriveShape>{{double(kOutputReads)}, {double(kOutputGain)}}

@@ -58,7 +58,7 @@ DriveFamily ramp(bool over_run) {
        .limits = [](const DriveContext&) { return std::pair(kNearestRamp, kFarthestRamp); }},
       {},
       {}};
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.whole_shapes = [over_run](const DriveContext& context) {
     std::vector<DriveShape> shapes;
     if (over_run ? !has_one_course(context) : !has_wide_speeds(context)) return shapes;
@@ -163,7 +163,7 @@ DriveFamily unnamed_moving_hump() {
        .reach = 0.1,
        .limits = [](const DriveContext&) { return std::pair(-1.5, 1.5); }},
       {}};
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.whole_shapes = [](const DriveContext& context) {
     constexpr double kLeastSpan = 8.0;
     constexpr int kFewestLoads = 4;

@@ -73,7 +73,7 @@ DriveFamily rows_by_turns(bool reads) {
   f.preference = 7;
   f.stands_alone = true;
   f.dearer = kDearerForms;
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.whole_shapes = [reads](const DriveContext& context) { return turn_shapes(context, reads); };
   f.kind = [](const DriveShape& s) { return static_cast<int>(s[kRowsEvery]); };
   f.kin_shapes = [](const DriveShape& s) {
@@ -167,7 +167,7 @@ DriveFamily block(bool reads) {
         return std::pair(0.0, 1.0);
       }};
   f.shape_values = {edge, edge, {}};
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.whole_shapes = [reads](const DriveContext& context) { return block_shapes(context, reads); };
   f.kind = [](const DriveShape& s) { return static_cast<int>(s[kBlockOf]); };
   f.all_shapes = [](const DriveContext& context, const DriveShape* about) {
@@ -293,7 +293,7 @@ DriveFamily row_sawtooth(bool reads) {
                     {.continuous = true, .is_place = true, .reach = 0.3},
                     {},
                     {}};
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.whole_shapes = [reads](const DriveContext& context) { return row_saw_shapes(context, reads); };
   f.kind = [](const DriveShape& s) { return static_cast<int>(s[kRowSawOf]); };
   f.kin_shapes = [](const DriveShape& s) {

@@ -187,7 +187,7 @@ DriveFamily switched(bool reads) {
         return std::pair(0.0, 1.0);
       }};
   f.shape_values = {{}, value, value, {}, {}, {}};
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.whole_shapes = [reads](const DriveContext& context) { return switched_shapes(context, reads); };
   f.kin_shapes = [](const DriveShape& s) {
     std::vector<DriveShape> kin;

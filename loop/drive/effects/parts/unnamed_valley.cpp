@@ -67,7 +67,7 @@ DriveFamily unnamed_valley() {
        .reach = 0.1,
        .limits = [](const DriveContext&) { return std::pair(kValleyNearest, kValleyFarthest); }},
       {}};
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.whole_shapes = [](const DriveContext& context) {
     std::vector<DriveShape> shapes;
     for (const double over : {0.0, 1.0, 2.0}) {
@@ -131,7 +131,7 @@ DriveFamily unnamed_saturating() {
       {.continuous = true,
        .limits = [](const DriveContext&) { return std::pair(kLeastScale, kMostScale); }},
       {}};
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.whole_shapes = [](const DriveContext& context) {
     std::vector<DriveShape> shapes;
     for (const double over : {double(kOverDriving), double(kOverSpeed), double(kOverCarried)}) {
@@ -197,7 +197,7 @@ DriveFamily unnamed_gain_of_range() {
       {}};
   f.falls_in_steps = true;
   f.asked_of_one_direction = true;
-  f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{}; };
+  f.shapes = no_shapes;
   f.whole_shapes = [](const DriveContext& context) {
     std::vector<DriveShape> shapes;
     if (!can_have_a_valley(context, 0.0)) return shapes;
