@@ -93,12 +93,14 @@ void note_history(std::vector<BenchPoint>& points) {
   }
 }
 
-void note_rows_before(std::vector<BenchPoint>& points) {
-  for (std::size_t i = 0; i < points.size(); ++i)
+void note_places(std::vector<BenchPoint>& points) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i].place = static_cast<int>(i);
     points[i].before =
         i > 0 && points[i].file == points[i - 1].file && points[i].row == points[i - 1].row + 1
             ? static_cast<int>(i) - 1
             : -1;
+  }
 }
 
 }  // namespace trueflank::loop

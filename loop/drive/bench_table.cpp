@@ -123,7 +123,7 @@ class TableMaker {
     }
     for (std::size_t i = 0; i < table_.points.size(); ++i)
       if (std::isnan(table_.points[i].sigma_nm)) table_.points[i].sigma_nm = fit.sigma_nm[i];
-    note_rows_before(table_.points);
+    note_places(table_.points);
     assign_blocks(table_, fit);
     measure_extent(table_);
     if (swapped == Impossible::kNothing) look_for_gains();

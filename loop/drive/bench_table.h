@@ -42,6 +42,7 @@ struct BenchPoint {
   /// How far the load and the speed have moved since they turned, of the largest.
   double moved = 0.0, speed_moved = 0.0;
   int row = 0;                 ///< of its file, from 0 on, with the rows that were left out
+  int place = -1;              ///< which of BenchTable::every_row() it is
   /// Of BenchTable::row_before(); -1: none was taken right before, or it was left out.
   int before = -1;
   int since_turn = 0;          ///< rows since the direction changed or the file began

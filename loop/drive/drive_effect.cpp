@@ -22,7 +22,9 @@ double DriveContext::friction(const BenchPoint& p) const {
 }
 
 double DriveContext::friction_slope(const BenchPoint& p) const {
-  return gain(p) * p.driving_nm * last(p).secant(curve, designed_friction(p), friction(p));
+  return row_friction_slopes.of(table.points, p, [&] {
+    return gain(p) * p.driving_nm * last(p).secant(curve, designed_friction(p), friction(p));
+  });
 }
 
 double DriveContext::mesh_slope(const BenchPoint& p, std::size_t mesh) const {

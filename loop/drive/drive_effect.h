@@ -33,7 +33,8 @@ struct DriveState {
   bool operator==(const DriveState&) const = default;
 };
 
-/// Where columns are evaluated: the drive, the bench's extent, the state.
+/// Where columns are evaluated: the drive, the bench's extent, the state. What was asked of rows is
+/// kept: another state is another context.
 struct DriveContext {
   const DriveModel& model;
   const EfficiencyCurve& curve;
@@ -42,14 +43,23 @@ struct DriveContext {
   DriveState state;
   mutable LastEfficiency last_forward{true}, last_backward{false};
   mutable LastValues last_speeds = {}, last_speed_coordinates = {};  ///< of this table
-  mutable LastRows last_switched = {};                               ///< of this table
+  mutable LastRows<char> last_switched = {};                         ///< of this table
+  mutable LastRows<int> last_rows_since = {};
+  mutable LastRows<double> last_powers = {};
+  mutable RowValues row_efficiencies = {}, row_friction_slopes = {},
+      row_flank_changes = {};  ///< of this table and state
 
+  [[nodiscard]] DriveContext in_state(const DriveState& other) const {
+    return {model, curve, table, mesh_curves, other};
+  }
   /// The meshes' friction at a point: as designed, and as the state has it.
   [[nodiscard]] double designed_friction(const BenchPoint& p) const {
     return model.friction_at(p.at());
   }
   [[nodiscard]] double friction(const BenchPoint& p) const;
-  [[nodiscard]] double efficiency(const BenchPoint& p) const { return last(p).at(curve, friction(p)); }
+  [[nodiscard]] double efficiency(const BenchPoint& p) const {
+    return row_efficiencies.of(table.points, p, [&] { return last(p).at(curve, friction(p)); });
+  }
   [[nodiscard]] LastEfficiency& last(const BenchPoint& p) const { return p.forward ? last_forward : last_backward; }
   /// Driven torque per unit of driving torque of the lossless drive.
   [[nodiscard]] double gain(const BenchPoint& p) const {

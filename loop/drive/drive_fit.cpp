@@ -175,8 +175,7 @@ Eigen::MatrixXd DriveFit::coefficient_slopes() const {
   const auto& points = context_.table.points;
   std::vector<double> values(16);
   const auto explained_at = [&](const Eigen::VectorXd& b) {
-    DriveContext there = context_;
-    there.state = state_at(b);
+    const DriveContext there = context_.in_state(state_at(b));
     Eigen::VectorXd explained = Eigen::VectorXd::Zero(columns_.rows());
     for (std::size_t i = 0; i < points.size(); ++i)
       for (std::size_t e = 0; e < effects_.size(); ++e) {

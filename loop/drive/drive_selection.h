@@ -42,6 +42,8 @@ struct DriveOutcome {
   }
 };
 
+class BesideEffects;
+
 /// True where the fuller set takes off more than what chance lets the figures that it has more.
 [[nodiscard]] bool earns_its_figures(const DriveOutcome& fuller, const DriveOutcome& plain);
 
@@ -243,9 +245,18 @@ class DriveSelection {
   [[nodiscard]] static OneForm names_beside_levels(const DriveOutcome& outcome, bool with_drag);
   /// Levels that are new after every jump of the run, in place of all that follows the run.
   void tell_as_levels_of_the_run(DriveOutcome& outcome);
-  /// `with_places`: also where a loss begins, jumps or stands out.
-  [[nodiscard]] std::vector<WholeForm> whole_forms(const std::vector<DriveEffect>& base,
-                                                   bool with_places) const;
+  /// Effects beside which whole forms are asked. `with_places`: also where a loss begins, jumps or
+  /// stands out.
+  struct AskedBeside {
+    std::vector<DriveEffect> base;
+    bool with_places = false;
+  };
+  /// The likeliest forms beside each, at their best places near by.
+  [[nodiscard]] std::vector<std::vector<WholeForm>> whole_forms(
+      const std::vector<AskedBeside>& asked) const;
+  /// The same beside one, where a coarse look finds them.
+  [[nodiscard]] std::vector<WholeForm> likeliest_whole_forms(const AskedBeside& asked,
+                                                             const BesideEffects& beside) const;
   [[nodiscard]] OneForm as_it_is(const DriveOutcome& outcome) const;
   /// The last of the set is new, and surer than what it stands for by `gain` (chi-square).
   void exchange_as_sure(DriveOutcome& outcome, const OneForm& set, double gain);

@@ -183,13 +183,16 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
                    [](const DriveEffect& e) { return bool(e.family->shape_of_states); }));
   std::vector<PricedForm> sets;
   double noise = now.square / std::max(1.0, outcome.rows - now.size);
-  const auto try_beside = [&](const OneForm& base, double looks_before, bool alone_too) {
+  // What is plain may do most of what one form does: then it is seen without (`alone_too`).
+  const auto ask_beside = [&](const OneForm& base, bool alone_too,
+                              std::vector<AskedBeside>& asked) {
     std::vector<DriveEffect> full = base.effects;
     full.insert(full.end(), plain.begin(), plain.end());
-    std::vector<WholeForm> forms = whole_forms(full, true);
-    // What is plain may do most of what one form does: then it is seen without.
-    if (alone_too)
-      for (WholeForm& form : whole_forms(base.effects, false)) forms.push_back(std::move(form));
+    asked.push_back({std::move(full), true});
+    if (alone_too) asked.push_back({base.effects, false});
+  };
+  const auto try_beside = [&](const OneForm& base, double looks_before,
+                              const std::vector<WholeForm>& forms) {
     for (const auto& [effect, gain, looks] : forms)
       for (std::size_t which = 0; which < (std::size_t{1} << plain.size()); ++which) {
         OneForm set = base;
@@ -204,21 +207,35 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
         noise = std::min(noise, set.square / std::max(1.0, outcome.rows - set.size));
         sets.push_back({std::move(set), looks_before, looks});
       }
-    return forms;
   };
+  std::vector<OneForm> begun;
+  std::vector<AskedBeside> to_ask;
   for (const std::vector<int>& kept : bases) {
-    OneForm base;
+    OneForm& base = begun.emplace_back();
     for (const int e : kept) {
       base.effects.push_back(outcome.effects[static_cast<std::size_t>(e)]);
       base.from.push_back(e);
     }
-    std::vector<WholeForm> forms = try_beside(base, 0.0, kept.empty() || kept == names);
+    ask_beside(base, kept.empty() || kept == names, to_ask);
+  }
+  std::vector<std::vector<WholeForm>> found = whole_forms(to_ask);
+  auto next = found.begin();
+  for (const OneForm& base : begun) {
+    const std::vector<int>& kept = base.from;
+    std::vector<WholeForm> forms = std::move(*next++);
+    if (kept.empty() || kept == names) {
+      forms.insert(forms.end(), next->begin(), next->end());
+      ++next;
+    }
+    try_beside(base, 0.0, forms);
     if (kept != names || !in_pieces) continue;
     // Several pieces may be two forms.
     constexpr std::size_t kMostFirst = 4;
     std::stable_sort(forms.begin(), forms.end(),
                      [](const WholeForm& a, const WholeForm& b) { return a.gain > b.gain; });
     std::set<std::pair<const DriveFamily*, int>> tried;
+    std::vector<std::pair<OneForm, double>> firsts;
+    std::vector<AskedBeside> second_ask;
     for (const WholeForm& first : forms) {
       const DriveFamily& family = *first.effect.family;
       if (tried.size() == kMostFirst) break;
@@ -227,8 +244,12 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
       OneForm with = base;
       with.effects.push_back(first.effect);
       with.from.push_back(-1);
-      try_beside(with, first.looks, false);
+      ask_beside(with, false, second_ask);
+      firsts.emplace_back(std::move(with), first.looks);
     }
+    const std::vector<std::vector<WholeForm>> seconds = whole_forms(second_ask);
+    for (std::size_t k = 0; k < firsts.size(); ++k)
+      try_beside(firsts[k].first, firsts[k].second, seconds[k]);
   }
   // The likeliest with their shapes free: each was sought beside all that is plain.
   constexpr std::size_t kMostRefined = 14;
@@ -452,12 +473,11 @@ void DriveSelection::fill_whole_columns() {
   whole_.columns = beside.columns_of(whole_.effects);
 }
 
-std::vector<DriveSelection::WholeForm> DriveSelection::whole_forms(
-    const std::vector<DriveEffect>& base, bool with_places) const {
+std::vector<DriveSelection::WholeForm> DriveSelection::likeliest_whole_forms(
+    const AskedBeside& asked, const BesideEffects& beside) const {
   constexpr std::size_t kMostForms = 10;
   constexpr double kLeastGain = 0.1;  // of what the base leaves
-  const DriveContext here = context();
-  const BesideEffects beside(here, value_, base, FitRows::kTraining);
+  const std::vector<DriveEffect>& base = asked.base;
   std::vector<WholeForm> forms;
   const auto is_taken = [&](const DriveEffect& form) {
     const auto kind = [](const DriveEffect& e) {
@@ -490,7 +510,7 @@ std::vector<DriveSelection::WholeForm> DriveSelection::whole_forms(
     forms.push_back(
         {whole_.effects[best.at], best.most, cost_of_looks(best.looks) + kind.first->dearer});
   }
-  if (with_places && (!gains_power() || losses_beside_gains_))
+  if (asked.with_places && (!gains_power() || losses_beside_gains_))
     for (const double over : {0.0, 1.0, 2.0})
       for (const DriveEffect& form : likeliest_forms(base, over))
         if (!form.family->named && !is_taken(form) && form.columns() == 1)
@@ -506,25 +526,40 @@ std::vector<DriveSelection::WholeForm> DriveSelection::whole_forms(
   std::erase_if(forms, [&](const WholeForm& f) {
     return f.effect.family->follows_rows_before ? f.gain < kMuchOfMost * most : ++kept > kMostForms;
   });
-  std::vector<WholeForm> refined;
-  for (WholeForm& form : forms) {
-    const DriveFamily& family = *form.effect.family;
-    if (family.falls_in_steps && family.whole_shapes) {
-      for (DriveShape& kin : family.kin_shapes ? family.kin_shapes(form.effect.shape)
-                                               : std::vector<DriveShape>{form.effect.shape})
-        refined.push_back({nearest_best(here, beside, {&family, kin}), form.gain, form.looks});
-      continue;
+  return forms;
+}
+
+std::vector<std::vector<DriveSelection::WholeForm>> DriveSelection::whole_forms(
+    const std::vector<AskedBeside>& asked) const {
+  const DriveContext here = context();
+  std::vector<BesideEffects> beside;
+  beside.reserve(asked.size());
+  for (const AskedBeside& one : asked)
+    beside.emplace_back(here, value_, one.base, FitRows::kTraining);
+  std::vector<std::vector<WholeForm>> found(asked.size());
+  std::vector<AskedForm> near;
+  std::vector<std::pair<std::size_t, std::size_t>> of_near;  // which of whose forms
+  for (std::size_t a = 0; a < asked.size(); ++a)
+    for (const WholeForm& form : likeliest_whole_forms(asked[a], beside[a])) {
+      const DriveFamily& family = *form.effect.family;
+      const bool in_steps = family.falls_in_steps && family.whole_shapes;
+      std::vector<DriveEffect> effects = asked[a].base;
+      effects.push_back(form.effect);
+      if (!in_steps) refine_drive_shapes(here, value_, FitRows::kTraining, effects);
+      const DriveShape shape = effects.back().shape;
+      for (const DriveShape& kin : family.kin_shapes&& family.whole_shapes
+                                       ? family.kin_shapes(shape)
+                                       : std::vector<DriveShape>{shape}) {
+        found[a].push_back({{&family, kin}, form.gain, form.looks});
+        if (!in_steps) continue;
+        near.push_back({&beside[a], {&family, kin}});
+        of_near.emplace_back(a, found[a].size() - 1);
+      }
     }
-    std::vector<DriveEffect> effects = base;
-    effects.push_back(form.effect);
-    refine_drive_shapes(here, value_, FitRows::kTraining, effects);
-    const DriveShape shape = effects.back().shape;
-    for (DriveShape& kin : form.effect.family->kin_shapes&& form.effect.family->whole_shapes
-                               ? form.effect.family->kin_shapes(shape)
-                               : std::vector<DriveShape>{shape})
-      refined.push_back({{form.effect.family, kin}, form.gain, form.looks});
-  }
-  return refined;
+  move_to_nearest_best(here, near);
+  for (std::size_t k = 0; k < near.size(); ++k)
+    found[of_near[k].first][of_near[k].second].effect = near[k].form;
+  return found;
 }
 
 }  // namespace trueflank::loop

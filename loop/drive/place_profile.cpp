@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "trueflank/base/threads.h"
 #include "trueflank/geometry/linear_equations.h"
@@ -39,17 +41,16 @@ BesideEffects::BesideEffects(const DriveContext& context, const Eigen::VectorXd&
   left_ -= others_ * (others_.transpose() * left_);
 }
 
-Eigen::VectorXd BesideEffects::column_of(const DriveContext& context,
-                                         const DriveEffect& effect) const {
+void BesideEffects::put_column(const DriveContext& context, const DriveFamily& family,
+                               const DriveShape& shape, Eigen::VectorXd& column) const {
   const auto& points = context.table.points;
-  Eigen::VectorXd column(weight_.size());
+  column.resize(weight_.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     double one = 0.0;
-    if (weight_[row] > 0.0) effect.family->evaluate(context, points[i], effect.shape, &one);
+    if (weight_[row] > 0.0) family.evaluate(context, points[i], shape, &one);
     column[row] = weight_[row] * one;
   }
-  return column;
 }
 
 Eigen::VectorXf BesideEffects::gains(const Eigen::MatrixXf& columns) const {
@@ -70,12 +71,14 @@ double BesideEffects::own_share(const DriveEffect& effect) const {
   return whole > 0.0 ? column.squaredNorm() / whole : 0.0;
 }
 
-BesideEffects::Alone BesideEffects::with_column(Eigen::VectorXd column) const {
+BesideEffects::Alone BesideEffects::with_column(const Eigen::VectorXd& column, Room& room) const {
   const double whole = column.squaredNorm();
-  column -= others_ * (others_.transpose() * column);
-  const double own = column.squaredNorm();
+  room.inside.noalias() = others_.transpose() * column;
+  room.held.noalias() = others_ * room.inside;
+  room.own = column - room.held;
+  const double own = room.own.squaredNorm();
   if (!(own > kOwnShare * whole)) return {};
-  const double product = column.dot(left_);
+  const double product = room.own.dot(left_);
   return {.gain = product * product / own, .coefficient = product / own, .error_square = 1.0 / own};
 }
 
@@ -84,8 +87,12 @@ std::vector<BesideEffects::Alone> BesideEffects::with_each(
   std::vector<Alone> each(shapes.size());
   for_each_run(shapes.size(), kAtOnce, [&](std::size_t from, std::size_t to) {
     const DriveContext own = context_;  // it keeps what was asked last
-    for (std::size_t k = from; k < to; ++k)
-      each[k] = with_column(column_of(own, {&family, shapes[k]}));
+    Eigen::VectorXd column;
+    Room room;
+    for (std::size_t k = from; k < to; ++k) {
+      put_column(own, family, shapes[k], column);
+      each[k] = with_column(column, room);
+    }
   });
   return each;
 }
@@ -94,25 +101,53 @@ Eigen::MatrixXf BesideEffects::columns_of(const std::vector<DriveEffect>& effect
   Eigen::MatrixXf columns(left_.size(), static_cast<Eigen::Index>(effects.size()));
   for_each_run(effects.size(), kAtOnce, [&](std::size_t from, std::size_t to) {
     const DriveContext own = context_;
-    for (std::size_t k = from; k < to; ++k)
-      columns.col(static_cast<Eigen::Index>(k)) = column_of(own, effects[k]).cast<float>();
+    Eigen::VectorXd column;
+    for (std::size_t k = from; k < to; ++k) {
+      put_column(own, *effects[k].family, effects[k].shape, column);
+      columns.col(static_cast<Eigen::Index>(k)) = column.cast<float>();
+    }
   });
   return columns;
 }
 
-DriveEffect nearest_best(const DriveContext& context, const BesideEffects& beside,
-                         DriveEffect form) {
-  double most = beside.with(form).gain;
+void move_to_nearest_best(const DriveContext& context, std::span<AskedForm> asked) {
+  std::vector<double> most;
+  for (const AskedForm& one : asked) most.push_back(one.beside->with(one.form).gain);
   for (int round = 0; round < 2; ++round) {
-    const std::vector<DriveShape> shapes = form.family->all_shapes(context, &form.shape);
-    const std::vector<BesideEffects::Alone> each = beside.with_each(*form.family, shapes);
-    for (std::size_t k = 0; k < shapes.size(); ++k)
-      if (each[k].gain > most) {
-        most = each[k].gain;
-        form.shape = shapes[k];
-      }
+    std::map<std::pair<const DriveFamily*, DriveShape>, std::vector<std::size_t>> about;
+    for (std::size_t a = 0; a < asked.size(); ++a)
+      about[{asked[a].form.family, asked[a].form.shape}].push_back(a);
+    for (const auto& [form, who] : about) {
+      const std::vector<DriveShape> shapes = form.first->all_shapes(context, &form.second);
+      Eigen::MatrixXd gains(static_cast<Eigen::Index>(who.size()),
+                            static_cast<Eigen::Index>(shapes.size()));
+      for_each_run(shapes.size(), kAtOnce, [&](std::size_t from, std::size_t to) {
+        const DriveContext own = context;  // it keeps what was asked last
+        Eigen::VectorXd column;
+        BesideEffects::Room room;
+        for (std::size_t k = from; k < to; ++k) {
+          asked[who.front()].beside->put_column(own, *form.first, shapes[k], column);
+          for (std::size_t w = 0; w < who.size(); ++w)
+            gains(static_cast<Eigen::Index>(w), static_cast<Eigen::Index>(k)) =
+                asked[who[w]].beside->with_column(column, room).gain;
+        }
+      });
+      for (std::size_t w = 0; w < who.size(); ++w)
+        for (std::size_t k = 0; k < shapes.size(); ++k)
+          if (const double gain = gains(static_cast<Eigen::Index>(w), static_cast<Eigen::Index>(k));
+              gain > most[who[w]]) {
+            most[who[w]] = gain;
+            asked[who[w]].form.shape = shapes[k];
+          }
+    }
   }
-  return form;
+}
+
+DriveEffect nearest_best(const DriveContext& context, const BesideEffects& beside,
+                         const DriveEffect& form) {
+  AskedForm asked{&beside, form};
+  move_to_nearest_best(context, {&asked, 1});
+  return asked.form;
 }
 
 PlaceProfile profile_of_place(const DriveContext& context, const Eigen::VectorXd& value,

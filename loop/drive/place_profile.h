@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "trueflank/loop/drive/drive_fit.h"
@@ -35,7 +36,8 @@ class BesideEffects {
   };
   /// Of an effect of one column.
   [[nodiscard]] Alone with(const DriveEffect& effect) const {
-    return with_column(column_of(effect));
+    Room room;
+    return with_column(column_of(effect), room);
   }
   /// The same of many shapes of a family, on all processors.
   [[nodiscard]] std::vector<Alone> with_each(const DriveFamily& family,
@@ -44,10 +46,21 @@ class BesideEffects {
   [[nodiscard]] Eigen::MatrixXf columns_of(const std::vector<DriveEffect>& effects) const;
   /// The same of many columns of one each, as column_of() gives them: what each takes off.
   [[nodiscard]] Eigen::VectorXf gains(const Eigen::MatrixXf& columns) const;
+  /// What a column needs beside it: kept from one to the next.
+  struct Room {
+    Eigen::VectorXd inside, held, own;
+  };
+  /// The same of a column, as column_of() gives it.
+  [[nodiscard]] Alone with_column(const Eigen::VectorXd& column, Room& room) const;
   /// An effect's column in the noise's units, 0 for rows not seen.
   [[nodiscard]] Eigen::VectorXd column_of(const DriveEffect& effect) const {
-    return column_of(context_, effect);
+    Eigen::VectorXd column;
+    put_column(context_, *effect.family, effect.shape, column);
+    return column;
   }
+  /// The same in the room of another. `context`: this one's, or a copy for one thread.
+  void put_column(const DriveContext& context, const DriveFamily& family, const DriveShape& shape,
+                  Eigen::VectorXd& column) const;
   /// Share of the squares of its column that the others do not hold.
   [[nodiscard]] double own_share(const DriveEffect& effect) const;
   /// What the others alone leave.
@@ -56,11 +69,6 @@ class BesideEffects {
   [[nodiscard]] int columns() const { return static_cast<int>(others_.cols()); }
 
  private:
-  /// `context`: this one's, or a copy for one thread.
-  [[nodiscard]] Eigen::VectorXd column_of(const DriveContext& context,
-                                          const DriveEffect& effect) const;
-  [[nodiscard]] Alone with_column(Eigen::VectorXd column) const;
-
   const DriveContext& context_;
   Eigen::VectorXd weight_;  ///< 0 for rows not seen
   Eigen::MatrixXd others_;  ///< orthonormal
@@ -69,6 +77,14 @@ class BesideEffects {
 
 /// Of what falls in steps over its places the best near by.
 [[nodiscard]] DriveEffect nearest_best(const DriveContext& context, const BesideEffects& beside,
-                                       DriveEffect form);
+                                       const DriveEffect& form);
+
+/// A form that is asked beside others.
+struct AskedForm {
+  const BesideEffects* beside = nullptr;  ///< all of the same rows
+  DriveEffect form;
+};
+/// The same of many, in their place: those about the same shape share the columns.
+void move_to_nearest_best(const DriveContext& context, std::span<AskedForm> asked);
 
 }  // namespace trueflank::loop

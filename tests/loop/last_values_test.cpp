@@ -3,16 +3,17 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <vector>
 
 namespace trueflank::loop {
 namespace {
 
 TEST(LastRows, TwoEffectsThatAreAskedInTurnAreWorkedOutOnceEach) {
-  LastRows last;
+  LastRows<char> last;
   int worked_out = 0;
   const auto rows_of = [&](double figure) {
-    return last.of({figure, 1.0}, [&] {
+    return last.of(std::array{figure, 1.0}, [&] {
       ++worked_out;
       return std::vector<char>{figure > 0.0 ? char{1} : char{0}};
     });
@@ -25,10 +26,10 @@ TEST(LastRows, TwoEffectsThatAreAskedInTurnAreWorkedOutOnceEach) {
 }
 
 TEST(LastRows, OthersTakeThePlaceOfTheOldest) {
-  LastRows last;
+  LastRows<char> last;
   int worked_out = 0;
   for (int figure = 0; figure < 20; ++figure)
-    EXPECT_EQ(last.of({1.0 * figure},
+    EXPECT_EQ(last.of(std::array{1.0 * figure},
                       [&] {
                         ++worked_out;
                         return std::vector<char>(3, static_cast<char>(figure));

@@ -25,9 +25,11 @@ BenchPoint at_largest_load(const DriveContext& context, const BenchPoint& p) {
 /// Change of the driven torque for 1 N m of loss at the input, which the flanks lose at the largest
 /// load.
 double of_flanks(const DriveContext& context, const BenchPoint& p) {
-  const BenchPoint most = at_largest_load(context, p);
-  const double slope = context.friction_slope(most);
-  return slope != 0.0 ? -context.lever(most) * context.friction_slope(p) / slope : 0.0;
+  return context.row_flank_changes.of(context.table.points, p, [&] {
+    const BenchPoint most = at_largest_load(context, p);
+    const double slope = context.friction_slope(most);
+    return slope != 0.0 ? -context.lever(most) * context.friction_slope(p) / slope : 0.0;
+  });
 }
 
 /// The first row after the jump.

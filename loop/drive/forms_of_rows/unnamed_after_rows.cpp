@@ -96,15 +96,40 @@ double left_quantity(const BenchPoint& p, double over) {
   return over == 1.0 ? p.speed_rpm : p.load_nm;
 }
 
-/// What is left of the last row that brought it, 1 in such a row.
-double left_of_rows_before(const BenchTable& table, const BenchPoint& p, const DriveShape& s) {
+/// Rows since the last one that brings it, of every row: 0 in such a row, -1 where there was none.
+std::vector<int> rows_since(const BenchTable& table, double over, double place, bool above) {
+  const auto& rows = table.every_row();
+  std::vector<int> since(rows.size(), -1);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const int before = rows[i].before;
+    if ((left_quantity(rows[i], over) > place) == above)
+      since[i] = 0;
+    else if (before >= 0 && since[static_cast<std::size_t>(before)] >= 0)
+      since[i] = since[static_cast<std::size_t>(before)] + 1;
+  }
+  return since;
+}
+
+/// What is left after so many rows, down to little.
+std::vector<double> left_after_rows(double rows) {
   constexpr double kLeast = 0.01;
-  const double each = std::exp(-1.0 / s[kLeftRows]);
-  double left = 1.0;
-  for (const BenchPoint* row = &p; row != nullptr && left > kLeast;
-       row = table.row_before(*row), left *= each)
-    if ((left_quantity(*row, s[kLeftOver]) > s[kLeftPlace]) == (s[kLeftAbove] != 0.0)) return left;
-  return 0.0;
+  const double each = std::exp(-1.0 / rows);
+  std::vector<double> left;
+  for (double now = 1.0; now > kLeast; now *= each) left.push_back(now);
+  return left;
+}
+
+/// What is left of the last row that brought it, 1 in such a row.
+double left_of_rows_before(const DriveContext& context, const BenchPoint& p, const DriveShape& s) {
+  const std::vector<int>& all = context.last_rows_since.of({s.data(), kLeftRows}, [&] {
+    return rows_since(context.table, s[kLeftOver], s[kLeftPlace], s[kLeftAbove] != 0.0);
+  });
+  const auto at = static_cast<std::size_t>(p.place);
+  if (at >= all.size() || all[at] < 0) return 0.0;
+  const std::vector<double>& left = context.last_powers.of(
+      {s.data() + kLeftRows, 1}, [&] { return left_after_rows(s[kLeftRows]); });
+  const auto since = static_cast<std::size_t>(all[at]);
+  return since < left.size() ? left[since] : 0.0;
 }
 
 /// Places half-way between neighbouring values of the rows, about so many, or all next to a place.
@@ -171,7 +196,7 @@ DriveFamily left_behind() {
   };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
                   double* c) {
-    const double left = left_of_rows_before(context.table, p, s);
+    const double left = left_of_rows_before(context, p, s);
     c[0] = left == 0.0 ? 0.0 : left * changed_nm(context, p, s[kLeftOf]);
   };
   f.figures = [](const DriveContext&, const DriveShape& s, double amount) {

@@ -57,13 +57,10 @@ SwitchedRows switched_rows(const DriveContext& context, const DriveShape& s) {
 }
 
 bool is_switched_on(const DriveContext& context, const BenchPoint& p, const DriveShape& s) {
-  const auto& points = context.table.every_row();
   const std::vector<char>& high =
       context.last_switched.of(s, [&] { return switched_rows(context, s).high; });
-  const auto at = std::lower_bound(points.begin(), points.end(), p.row,
-                                   [](const BenchPoint& one, int row) { return one.row < row; });
-  if (at == points.end()) return false;
-  return (high[static_cast<std::size_t>(at - points.begin())] != 0) == (s[kSwitchedOnBelow] == 0.0);
+  const auto at = static_cast<std::size_t>(p.place);
+  return at < high.size() && (high[at] != 0) == (s[kSwitchedOnBelow] == 0.0);
 }
 
 /// Half way between the rows that say where they may be; as they are where none does.
