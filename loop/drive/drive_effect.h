@@ -45,7 +45,7 @@ struct DriveContext {
   mutable LastValues last_speeds = {}, last_speed_coordinates = {};  ///< of this table
   mutable LastRows<char> last_switched = {};                         ///< of this table
   mutable LastRows<int> last_rows_since = {};
-  mutable LastRows<double> last_powers = {};
+  mutable LastRows<double> last_powers = {}, last_memories = {};
   mutable RowValues row_efficiencies = {}, row_friction_slopes = {},
       row_flank_changes = {};  ///< of this table and state
 
@@ -212,6 +212,9 @@ struct DriveFamily : EffectFacts {
   bool comes_again_over_the_run = false;
   /// The shapes by which it may be what a spectrum shows at an order; empty: none.
   std::function<std::vector<DriveShape>(const DriveContext&, double order)> shapes_at_order = {};
+  /// Waves of an order whose phase goes with the load or the speed; empty: it is none of these.
+  std::function<std::vector<DriveShape>(const DriveContext&, double order, double direction)>
+      late_waves_at_order = {};
   /// The shape of a slow course of the run, a polynomial, that a scan proposes; empty: it takes none.
   std::function<DriveShape(double what, int degree)> shape_of_wander = {};
   /// @}

@@ -120,14 +120,22 @@ std::vector<DriveEffect> DriveSelection::waves_by_speed(const std::vector<DriveE
                                                         double order) const {
   constexpr int kSpeeds = 12;
   constexpr double kFewestSpeeds = 6.0;
-  if (table_.levels[1] < kFewestSpeeds || !(table_.least_speed_rpm > 0.0)) return {};
+  const bool many_speeds = table_.levels[1] >= kFewestSpeeds && table_.least_speed_rpm > 0.0;
   const DriveContext here = context();
-  const DriveFamily& resonant =
-      *std::find_if(drive_library().begin(), drive_library().end(),
-                    [](const DriveFamily& f) { return f.is_resonant_wave; });
+  const auto family_with = [](const auto& is_it) -> const DriveFamily& {
+    return *std::find_if(drive_library().begin(), drive_library().end(), is_it);
+  };
+  const DriveFamily &resonant = family_with([](const auto&f) { return f.is_resonant_wave; }),
+                    &late = family_with([](const auto&f) { return bool(f.late_waves_at_order); });
   if (!may_be_there(resonant)) return {};
   const Eigen::VectorXd left =
       value_ - DriveFit(here, value_, base, FitRows::kTraining).explained_nm();
+  double square = 0.0, rows = 0.0;  // in the noise's units
+  for (std::size_t i = 0; i < table_.points.size(); ++i) {
+    if (table_.points[i].fold == 0) continue;
+    square += std::pow(left[static_cast<Eigen::Index>(i)] / table_.points[i].sigma_nm, 2);
+    rows += 1.0;
+  }
   // Two columns of every size over the speed, each row in its noise's units.
   struct Waves {
     DriveEffect effect;
@@ -163,11 +171,13 @@ std::vector<DriveEffect> DriveSelection::waves_by_speed(const std::vector<DriveE
     return most;
   };
   std::vector<Waves> best;
-  const double by = std::log(table_.most_speed_rpm / table_.least_speed_rpm) / (kSpeeds + 1);
+  const double by =
+      many_speeds ? std::log(table_.most_speed_rpm / table_.least_speed_rpm) / (kSpeeds + 1) : 0.0;
   for (const double direction : {0.0, drive_effects::kAsItReads}) {
     if (direction != 0.0 && !(table_.has(true) && table_.has(false))) continue;
     std::vector<DriveShape> even, squares, resonances;
     for (const double apart : {-0.25, 0.0, 0.25}) {
+      if (!many_speeds && apart != 0.0) continue;
       const double at = order + apart / std::max(1.0, table_.turns);
       if (!(at > 0.0)) continue;
       even.push_back({at, double(drive_effects::kWaveEven), direction, 0.0});
@@ -177,12 +187,16 @@ std::vector<DriveEffect> DriveSelection::waves_by_speed(const std::vector<DriveE
           resonances.push_back({at, double(drive_effects::kWaveEven), direction, 0.0,
                                 table_.least_speed_rpm * std::exp(by * speed), half});
     }
-    // (what goes with the speed leaves clearly less than the same at all speeds)
-    constexpr double kClearlyMore = 1.3;
-    const double least = kClearlyMore * likeliest_of(wave_family(), even).gain;
+    // What goes with the speed leaves clearly less than the same at all speeds; a phase that moves
+    // a little, surely less.
+    constexpr double kClearlyMore = 1.3, kSurelyMore = 25.0;
+    const double of_even = likeliest_of(wave_family(), even).gain;
+    if (!many_speeds) squares = resonances = {};
     for (const Waves& waves :
          {likeliest_of(wave_family(), squares), likeliest_of(resonant, resonances)})
-      if (waves.gain > least) best.push_back(waves);
+      if (waves.gain > kClearlyMore * of_even) best.push_back(waves);
+    const Waves later = likeliest_of(late, late.late_waves_at_order(here, order, direction));
+    if (later.gain > of_even + kSurelyMore * (square - later.gain) / rows) best.push_back(later);
   }
   std::vector<DriveEffect> waves;
   for (const Waves& wave : best) {

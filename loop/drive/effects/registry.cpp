@@ -109,6 +109,9 @@ const std::vector<DriveFamily>& drive_library() {
         unnamed_changing_waves_of_the_run(),
         unnamed_first_rows(),
         unnamed_left_behind(),
+        unnamed_late_wave(),
+        unnamed_memory(),
+        unnamed_reading_memory(),
     };
     for (DriveFamily& family : all) {
       family.shape_values.resize(family.shape_names.size());

@@ -117,6 +117,9 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_changing_waves_of_the_run();
 [[nodiscard]] DriveFamily unnamed_first_rows();
 [[nodiscard]] DriveFamily unnamed_left_behind();
+[[nodiscard]] DriveFamily unnamed_late_wave();
+[[nodiscard]] DriveFamily unnamed_memory();
+[[nodiscard]] DriveFamily unnamed_reading_memory();
 /// @}
 
 }  // namespace trueflank::loop::drive_effects
