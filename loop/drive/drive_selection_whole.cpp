@@ -159,19 +159,18 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
                        [&](const DriveEffect& p) { return p.family == e.family; });
   };
   fill_whole_columns();
-  std::set<std::vector<int>> bases{{}};
   std::vector<int> all, names;
   for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
     if (is_of_plain(outcome.effects[e])) continue;
     all.push_back(static_cast<int>(e));
     if (outcome.effects[e].family->named) names.push_back(static_cast<int>(e));
   }
-  bases.insert(all);
-  bases.insert(names);
+  const std::set<std::vector<int>> first_bases{{}, all, names};
+  std::set<std::vector<int>> without_each;
   for (std::size_t k = 0; k < all.size() && all.size() > 1; ++k) {
     std::vector<int> without = all;
     without.erase(without.begin() + static_cast<std::ptrdiff_t>(k));
-    bases.insert(without);
+    if (!first_bases.contains(without)) without_each.insert(without);
   }
   // Levels that come and go, or several descriptions, may be two forms.
   constexpr std::ptrdiff_t kPieces = 2;
@@ -181,7 +180,7 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
                      [](const DriveEffect& e) { return !e.family->named; }) >= kPieces ||
        std::any_of(outcome.effects.begin(), outcome.effects.end(),
                    [](const DriveEffect& e) { return bool(e.family->shape_of_states); }));
-  std::vector<PricedForm> sets;
+  std::map<std::vector<int>, std::vector<PricedForm>> sets_of;  // by what is kept
   double noise = now.square / std::max(1.0, outcome.rows - now.size);
   // What is plain may do most of what one form does: then it is seen without (`alone_too`).
   const auto ask_beside = [&](const OneForm& base, bool alone_too,
@@ -192,7 +191,7 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
     if (alone_too) asked.push_back({base.effects, false});
   };
   const auto try_beside = [&](const OneForm& base, double looks_before,
-                              const std::vector<WholeForm>& forms) {
+                              const std::vector<WholeForm>& forms, std::vector<PricedForm>& sets) {
     for (const auto& [effect, gain, looks] : forms)
       for (std::size_t which = 0; which < (std::size_t{1} << plain.size()); ++which) {
         OneForm set = base;
@@ -208,49 +207,73 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
         sets.push_back({std::move(set), looks_before, looks});
       }
   };
-  std::vector<OneForm> begun;
-  std::vector<AskedBeside> to_ask;
-  for (const std::vector<int>& kept : bases) {
-    OneForm& base = begun.emplace_back();
-    for (const int e : kept) {
-      base.effects.push_back(outcome.effects[static_cast<std::size_t>(e)]);
-      base.from.push_back(e);
+  std::vector<WholeForm> beside_names;
+  const auto try_bases = [&](const std::set<std::vector<int>>& bases) {
+    std::vector<OneForm> begun;
+    std::vector<AskedBeside> to_ask;
+    for (const std::vector<int>& kept : bases) {
+      OneForm& base = begun.emplace_back();
+      for (const int e : kept) {
+        base.effects.push_back(outcome.effects[static_cast<std::size_t>(e)]);
+        base.from.push_back(e);
+      }
+      ask_beside(base, kept.empty() || kept == names, to_ask);
     }
-    ask_beside(base, kept.empty() || kept == names, to_ask);
-  }
-  std::vector<std::vector<WholeForm>> found = whole_forms(to_ask);
-  auto next = found.begin();
-  for (const OneForm& base : begun) {
-    const std::vector<int>& kept = base.from;
-    std::vector<WholeForm> forms = std::move(*next++);
-    if (kept.empty() || kept == names) {
-      forms.insert(forms.end(), next->begin(), next->end());
-      ++next;
+    std::vector<std::vector<WholeForm>> found = whole_forms(to_ask);
+    auto next = found.begin();
+    for (const OneForm& base : begun) {
+      const std::vector<int>& kept = base.from;
+      std::vector<WholeForm> forms = std::move(*next++);
+      if (kept.empty() || kept == names) {
+        forms.insert(forms.end(), next->begin(), next->end());
+        ++next;
+      }
+      try_beside(base, 0.0, forms, sets_of[kept]);
+      if (kept == names) beside_names = std::move(forms);
     }
-    try_beside(base, 0.0, forms);
-    if (kept != names || !in_pieces) continue;
-    // Several pieces may be two forms.
+  };
+  // Several pieces may be two forms.
+  const auto try_two_beside_names = [&] {
     constexpr std::size_t kMostFirst = 4;
-    std::stable_sort(forms.begin(), forms.end(),
+    std::stable_sort(beside_names.begin(), beside_names.end(),
                      [](const WholeForm& a, const WholeForm& b) { return a.gain > b.gain; });
     std::set<std::pair<const DriveFamily*, int>> tried;
     std::vector<std::pair<OneForm, double>> firsts;
-    std::vector<AskedBeside> second_ask;
-    for (const WholeForm& first : forms) {
+    std::vector<AskedBeside> to_ask;
+    for (const WholeForm& first : beside_names) {
       const DriveFamily& family = *first.effect.family;
       if (tried.size() == kMostFirst) break;
       if (!tried.insert({&family, family.kind ? family.kind(first.effect.shape) : 0}).second)
         continue;
-      OneForm with = base;
+      OneForm with;
+      for (const int e : names)
+        with.effects.push_back(outcome.effects[static_cast<std::size_t>(e)]);
+      with.from = names;
       with.effects.push_back(first.effect);
       with.from.push_back(-1);
-      ask_beside(with, false, second_ask);
+      ask_beside(with, false, to_ask);
       firsts.emplace_back(std::move(with), first.looks);
     }
-    const std::vector<std::vector<WholeForm>> seconds = whole_forms(second_ask);
+    const std::vector<std::vector<WholeForm>> seconds = whole_forms(to_ask);
     for (std::size_t k = 0; k < firsts.size(); ++k)
-      try_beside(firsts[k].first, firsts[k].second, seconds[k]);
+      try_beside(firsts[k].first, firsts[k].second, seconds[k], sets_of[names]);
+  };
+  try_bases(first_bases);
+  // Where one form beside few does as much as many effects, what it leaves is asked again.
+  constexpr std::size_t kMany = 5, kFew = 3;
+  const bool one_does_all =
+      all.size() >= kMany && std::any_of(sets_of.begin(), sets_of.end(), [&](const auto& of_base) {
+        return std::any_of(of_base.second.begin(), of_base.second.end(), [&](const PricedForm& f) {
+          return f.set.square <= now.square && f.set.effects.size() <= kFew;
+        });
+      });
+  if (!one_does_all) {
+    if (in_pieces) try_two_beside_names();
+    try_bases(without_each);
   }
+  std::vector<PricedForm> sets;
+  for (auto& [kept, of_base] : sets_of)
+    for (PricedForm& priced : of_base) sets.push_back(std::move(priced));
   // The likeliest with their shapes free: each was sought beside all that is plain.
   constexpr std::size_t kMostRefined = 14;
   std::stable_sort(sets.begin(), sets.end(), [&](const auto& a, const auto& b) {
