@@ -174,7 +174,8 @@ std::vector<Forms> forms_along_flanks(const loop::FlankGeometry& geometry) {
 std::vector<Forms> forms_of_the_part(const loop::FlankGeometry& geometry) {
   std::vector<Forms> kinds{loop::dishes(geometry, FlankChoice::kBoth, "unnamed_dish"),
                            loop::swellings_around(geometry.teeth(), FlankChoice::kBoth),
-                           loop::bows_of_the_axis(), loop::kinks_of_the_axis(geometry)};
+                           loop::bows_of_the_axis(), loop::kinks_of_the_axis(geometry),
+                           loop::soft_shifts(geometry)};
   for (const int number : {1, 2, 3}) kinds.push_back(loop::swellings_at_ends(geometry, number));
   for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight})
     kinds.push_back(loop::corners(geometry, flank));

@@ -144,6 +144,48 @@ TEST(KinkOfTheAxis, LeavesATiltALayerShiftAndABowWhatTheyAre) {
     }
 }
 
+TEST(SoftShift, IsOneFormAndNoTiltWobbleOrLayerShift) {
+  const MadeGear gear = spur(24);
+  const double face_mm = gear.face_mm, half_mm = 0.12 * face_mm;
+  struct Case {
+    double at, to_both_sides;  ///< of the face; 1: those below go the other way, 0: they stay
+  };
+  const auto leans = moved([=](double z) { return 24.0 * (z / face_mm - 0.5); }, -60.0);
+  for (const Case& c : {Case{0.5, 1.0}, Case{0.37, 0.0}}) {
+    const double at_mm = c.at * face_mm;
+    const auto slides = moved(
+        [=](double z) {
+          const double off = std::tanh((z - at_mm) / half_mm);
+          return 16.0 * (c.to_both_sides > 0.0 ? off : 1.0 + off);
+        },
+        130.0);
+    const auto expect_soft = [&](const loop::LoopResult& result) {
+      EXPECT_TRUE(tells(result, "whole sections slide aside softly about a height of"))
+          << list(result);
+      EXPECT_TRUE(tells(result, "those above stand aside, towards 1")) << list(result);
+      EXPECT_EQ(tells(result, "those below by as much the other way"), c.to_both_sides > 0.0)
+          << list(result);
+      EXPECT_NEAR(parameter(result.effects[0], "amplitude_um").value,
+                  c.to_both_sides > 0.0 ? 16.0 : 32.0, 1.0)
+          << list(result);
+    };
+    for (const auto& result :
+         {close(gear, inspection_of(gear, {slides}, of_all_teeth(1.0, 21))),
+          close(gear, scan_of(gear, {slides}, scanned(7000, 2.0, 22)), true)}) {
+      EXPECT_FALSE(has_name(result)) << list(result);
+      ASSERT_EQ(result.effects.size(), 1U) << list(result);
+      expect_soft(result);
+    }
+    const auto beside = close(gear, scan_of(gear, {slides, leans}, scanned(7000, 2.0, 23)), true);
+    ASSERT_EQ(beside.effects.size(), 2U) << list(beside);
+    expect_soft(beside);
+    ASSERT_NE(find(beside, "axis_tilt"), nullptr) << list(beside);
+    EXPECT_NEAR(parameter(*find(beside, "axis_tilt"), "slope_um_per_mm").value, 24.0 / face_mm,
+                2.0 / face_mm)
+        << list(beside);
+  }
+}
+
 // Beside an eccentricity the sections of helical teeth were taken to lean as a body, and a pitch
 // wave made up for it.
 TEST(TiltOfHelicalTeeth, LeavesNothingForAPitchWave) {

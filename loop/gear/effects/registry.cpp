@@ -70,6 +70,7 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_soft_sector(),
         unnamed_bow(),
         unnamed_axis_kink(),
+        unnamed_soft_shift(),
         unnamed_field(),
         unnamed_cut_order(),
         unnamed_slip(),

@@ -197,6 +197,18 @@ std::vector<Effect> kinks_of_the_axis(const FlankGeometry& geometry) {
   return kinks;
 }
 
+std::vector<Effect> soft_shifts(const FlankGeometry& geometry) {
+  std::vector<Effect> shifts;
+  const double face_mm = geometry.face_width_mm();
+  for (const double share : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9})
+    for (const double half : {0.05, 0.12, 0.25})
+      for (const double moves : {0.0, 1.0, -1.0})
+        shifts.push_back({find_family("unnamed_soft_shift"),
+                          FlankChoice::kBoth,
+                          {share * face_mm, half * face_mm, moves}});
+  return shifts;
+}
+
 std::vector<Effect> swellings_around(int teeth, FlankChoice flank) {
   std::vector<Effect> forms;
   for (int number = 2; number <= kMostSwellings; ++number) {

@@ -79,6 +79,8 @@ inline constexpr int kMostOfComb = 8;  ///< one tooth in so many, at most
 /// Bent axes, and axes with a kink to start from.
 [[nodiscard]] std::vector<Effect> bows_of_the_axis();
 [[nodiscard]] std::vector<Effect> kinks_of_the_axis(const FlankGeometry& geometry);
+/// Sections that slide aside about a height, softly, to start from.
+[[nodiscard]] std::vector<Effect> soft_shifts(const FlankGeometry& geometry);
 
 /// Ridges and grooves in lines aslant over the flanks, to start from.
 [[nodiscard]] std::vector<Effect> lines_aslant(const FlankGeometry& geometry, FlankChoice flank);

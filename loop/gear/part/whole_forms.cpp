@@ -78,9 +78,9 @@ double direction_at_end_deg(const FlankGeometry& geometry, const PointFit& fit,
   return deg_from_rad(std::atan2(y, x));
 }
 
-/// Sections that move in waves over the height, or in two steps, for what moves them and comes once
-/// per turn. Lengths and heights are sought in what is left without these: the pieces do not lead
-/// to them.
+/// Sections that move in waves over the height, in two steps or softly, for what moves them and
+/// comes once per turn. Lengths and heights are sought in what is left without these: the pieces do
+/// not lead to them.
 std::vector<Effect> with_sections_aside(const PartModel& model, std::vector<std::size_t>& these) {
   constexpr double kTurns = 0.5, kTwoWays = 0.1;  // of the half axes
   std::vector<std::size_t> all, forms_alone;
@@ -143,6 +143,7 @@ std::vector<Effect> with_sections_aside(const PartModel& model, std::vector<std:
                            {wave.wavelength_mm, std::fmod(wave.towards_deg + 90.0, 180.0), 0.0}}});
   }
   keep_best(kinks_of_the_axis(model.geometry), {});
+  keep_best(soft_shifts(model.geometry), {});
   if (best.empty()) return {};
   // A bent axis is told as that (tell_as_bow).
   std::vector<std::size_t> set;
