@@ -131,5 +131,57 @@ TEST(OneFlank, WavesOfOneSideAreOneFormAndNotHalfOfItEqualAndHalfOpposite) {
   EXPECT_NEAR(parameter(result.effects[0], "amplitude_um").value, 9.0, 0.5) << list(result);
 }
 
+/// An index and nothing else.
+InspectionOptions index_of_teeth(double noise_um, unsigned seed) {
+  InspectionOptions options;
+  options.profile = options.helix = false;
+  options.noise_um = noise_um;
+  options.seed = seed;
+  return options;
+}
+
+TEST(OneFlank, AWaveOfItsOwnIsNoPitchWaveAndLobingThatCancelOnTheOther) {
+  std::mt19937 random(624);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  for (unsigned draw = 1; draw <= survey_size(3U, 12U); ++draw) {
+    const MadeGear gear = spur(40 + static_cast<int>(20.0 * uniform(random)));
+    const double left_um = 2.0 + 2.0 * uniform(random), right_um = 0.8 * left_um,
+                 left_rad = 6.28 * uniform(random), right_rad = 6.28 * uniform(random);
+    const int left = 3 + static_cast<int>(3.0 * uniform(random)), right = left + 2;
+    const auto waves = grown([=](const MadeGear& g, const FlankSpot& s, auto&) {
+      const double angle = 2.0 * M_PI * (s.tooth - 1) / g.teeth;
+      return s.side > 0 ? left_um * std::cos(left * angle - left_rad)
+                        : right_um * std::cos(right * angle - right_rad);
+    });
+    const auto result = close(gear, inspection_of(gear, {waves}, index_of_teeth(0.25, draw)));
+    SCOPED_TRACE(list(result));
+    EXPECT_FALSE(has_name(result));
+    ASSERT_EQ(result.effects.size(), 2U);
+    for (const auto& effect : result.effects) {
+      const bool of_left = effect.flank == "left";
+      EXPECT_EQ(effect.flank, of_left ? "left" : "right");
+      EXPECT_NEAR(parameter(effect, "amplitude_um").value, of_left ? left_um : right_um, 0.3);
+    }
+    EXPECT_TRUE(tells(result, std::to_string(left) + " times per turn"));
+    EXPECT_TRUE(tells(result, std::to_string(right) + " times per turn"));
+  }
+}
+
+// Of waves that do not cancel both names stay.
+TEST(OneFlank, APitchWaveAndLobesOfOneOrderKeepTheirNames) {
+  for (unsigned draw = 1; draw <= survey_size(2U, 6U); ++draw) {
+    const MadeGear gear = spur(48);
+    const double deg = 57.0 * draw, pitch_um = 3.2, round_um = 9.0;
+    const auto result = close(
+        gear,
+        inspection_of(gear, {indexed(5, pitch_um, deg), out_of_round(5, round_um, deg + 63.0)},
+                      index_of_teeth(0.25, draw)));
+    SCOPED_TRACE(list(result));
+    EXPECT_EQ(result.effects.size(), 2U);
+    expect_size(result, "pitch_wave", "amplitude_um", pitch_um, 0.1 * pitch_um);
+    expect_size(result, "lobing", "amplitude_um", round_um, 0.1 * round_um);
+  }
+}
+
 }  // namespace
 }  // namespace trueflank::test

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -82,6 +83,57 @@ bool tell_form_of_one_flank_alone(PartModel& model) {
     if (with.empty()) continue;
     std::rotate(with.begin() + static_cast<std::ptrdiff_t>(e),
                 with.begin() + static_cast<std::ptrdiff_t>(e) + 1, with.end());
+    put_in_place_of(model, {e}, with);
+    return true;
+  }
+  return false;
+}
+
+/// What a wave around the gear is along the flanks, as degrees over profile and face; none of other
+/// effects.
+std::optional<CourseOverFlanks> course_of_wave(const Effect& effect) {
+  const NeedsToBeSeen needs = effect.needs();
+  if (!is_wave_around(effect) || effect.columns() != 2) return {};
+  if (effect.family == find_family("unnamed"))
+    return CourseOverFlanks{.profile = effect.shape[0], .face = effect.shape[1]};
+  if (!effect.family->named || effect.family->local || needs.along_profile || needs.along_face)
+    return {};
+  return CourseOverFlanks{};
+}
+
+/// Two waves of one order, alike and opposite on the flanks, or of both flanks and of one, that
+/// cancel on one flank: the other alone has a wave.
+bool tell_waves_that_cancel(PartModel& model) {
+  for (std::size_t a = first_told_here(model); a < model.effects.size(); ++a)
+    for (std::size_t b = a + 1; b < model.effects.size(); ++b) {
+      const Effect &one = model.effects[a], &other = model.effects[b];
+      const auto course = course_of_wave(one), other_course = course_of_wave(other);
+      if (!course || !other_course || one.order() != other.order() ||
+          course->profile != other_course->profile || course->face != other_course->face ||
+          (one.flank != FlankChoice::kBoth && other.flank != FlankChoice::kBoth) ||
+          (model.table->is_displaced &&
+           (one.family->displacement_mm || other.family->displacement_mm)))
+        continue;
+      for (const FlankChoice flank : {FlankChoice::kLeft, FlankChoice::kRight})
+        if (stands_in_place_of(
+                model, {a, b},
+                {find_family("unnamed"), flank, {course->profile, course->face, one.order(), 0.0}}))
+          return true;
+    }
+  return false;
+}
+
+/// Swellings of one flank that overlap so far that they are a wave of so many periods.
+bool tell_swellings_that_are_a_wave(PartModel& model) {
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    const Effect& swellings = model.effects[e];
+    if (swellings.family != find_family("unnamed_swellings") ||
+        swellings.flank == FlankChoice::kBoth)
+      continue;
+    std::vector<Effect> with = without(model.effects, {e});
+    with.push_back(
+        {find_family("unnamed"), swellings.flank, {0.0, 0.0, swellings.shape.front(), 0.0}});
+    if (cost_of(model, with) > cost_of(model, model.effects)) continue;
     put_in_place_of(model, {e}, with);
     return true;
   }
@@ -317,7 +369,13 @@ void tell_opposite_forms(PartModel& model) {
   drop_waves_of_what_was_left(model, before);
 }
 
+void tell_waves_of_one_flank(PartModel& model) {
+  while (tell_waves_that_cancel(model) || tell_swellings_that_are_a_wave(model)) {
+  }
+}
+
 void tell_what_one_flank_has(PartModel& model) {
+  tell_waves_of_one_flank(model);
   while (tell_form_of_one_flank_alone(model)) {
   }
   while (tell_pair_of_one_flank(model)) {

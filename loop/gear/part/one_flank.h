@@ -11,6 +11,9 @@ namespace trueflank::loop {
 /// and is somewhere as designed, and the other has none. So is a level of both that a wide form of
 /// one takes out again: the other flank stands out.
 void tell_what_one_flank_has(PartModel& model);
+/// Two waves of one order that cancel on one flank are a wave of the other; swellings of one flank
+/// that overlap are one as well.
+void tell_waves_of_one_flank(PartModel& model);
 /// One form for all that is opposite on the flanks along the profile or along the face: an S and a
 /// turn of the section were a wave, a step was a bend. Where all else is told: beside waves that
 /// are not understood yet, slopes look curved.

@@ -119,6 +119,7 @@ void explain_part(PartModel& model) {
   tell_the_usual_of_equals(model);
   take_other_start(model);
   doubt_size_of_flanks(model);
+  tell_waves_of_one_flank(model);
   take_form_around(model);
   tell_what_one_flank_has(model);
   tell_opposite_forms(model);
