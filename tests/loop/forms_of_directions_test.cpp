@@ -45,6 +45,23 @@ TEST(FacingDirection, OfOneSideIsOneForm) {
              "flanks that face towards 200 deg stand out");
 }
 
+TEST(FacingDirection, OfOneSideAndMoreAndMoreTowardsAnEndIsOneForm) {
+  for (const bool up : survey_of(1, {true, false})) {
+    const auto fan = [up](const MadeGear& g, const FlankSpot& s, const Vec3&) {
+      const Vec3 n = normal_at(g, s);
+      const double faced = std::cos(std::atan2(n[1], n[0]) - towards_rad(200.0));
+      return 30.0 * std::max(faced, 0.0) * 0.5 * (1.0 + (up ? s.v : -s.v));
+    };
+    const MadeGear gear = up ? spur(26) : helical(23, 14.0);
+    const auto result = scan_with(gear, grown(fan), 3.0, 6);
+    expect_one(result, "walls that face towards ");
+    EXPECT_TRUE(tells(result, up ? "towards the upper end" : "towards the lower end"))
+        << list(result);
+    ASSERT_FALSE(result.effects.empty());
+    EXPECT_NEAR(parameter(result.effects[0], "amplitude_um").value, 30.0, 2.5) << list(result);
+  }
+}
+
 TEST(SwellingsAtAnEnd, AreOneForm) {
   const MadeGear gear = spur(32);
   for (const int number : survey_of(1, {2, 4})) {

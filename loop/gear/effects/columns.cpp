@@ -105,6 +105,16 @@ std::string over_edges(double edge_teeth, bool asked) {
   return "with soft edges" + (teeth > 1.0 ? printed(" over about %.0f teeth, ", teeth) : ", ");
 }
 
+std::vector<EffectShape> facings_beside(const EffectShape& shape) {
+  std::vector<EffectShape> shapes{shape};
+  shapes.back()[1] = 3.0 - shape[1];
+  for (const double off : {-8.0, -3.0, -1.0, -0.3, 0.3, 1.0, 3.0, 8.0}) {
+    shapes.push_back(shape);
+    shapes.back()[0] += off;
+  }
+  return shapes;
+}
+
 std::vector<EffectShape> sectors_beside(const FlankGeometry& geometry, const EffectShape& shape,
                                         int most) {
   std::vector<EffectShape> shapes;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "trueflank/base/units.h"
@@ -53,6 +54,17 @@ class WavesOf {
 /// height.
 void two_directions(const FlankGeometry& geometry, const Place& place, double factor,
                     double* columns);
+
+/// What is left on flanks that face a direction: the cosine to it or, `power` 2, its square;
+/// nothing on those that face away.
+[[nodiscard]] inline double faces(const Place& place, double towards_deg, double power) {
+  const double towards = rad_from_deg(towards_deg);
+  const double faced = std::max(0.0, std::cos(towards) * place.normal_direction[0] +
+                                         std::sin(towards) * place.normal_direction[1]);
+  return power == 2.0 ? faced * faced : faced;
+}
+/// The same from a direction to either side, and by the other power.
+[[nodiscard]] std::vector<EffectShape> facings_beside(const EffectShape& shape);
 
 /// A family whose one column is a function of profile coordinate u (-1 root form ... +1 tip), face
 /// coordinate v (-1 ... +1 from bottom to top) and side, on flanks only.

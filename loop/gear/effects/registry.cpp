@@ -90,6 +90,7 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_crossed_order(),
         unnamed_crossed_waves(),
         unnamed_body_wave(),
+        unnamed_body_facing(),
         unnamed_body_place(),
         unnamed_swellings_at_end(),
         unnamed_reversal(),

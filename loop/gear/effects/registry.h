@@ -121,6 +121,7 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_wobble();
 [[nodiscard]] EffectFamily unnamed_one_side();
 [[nodiscard]] EffectFamily unnamed_body_wave();
+[[nodiscard]] EffectFamily unnamed_body_facing();
 [[nodiscard]] EffectFamily unnamed_body_place();
 [[nodiscard]] EffectFamily unnamed_swellings_at_end();
 [[nodiscard]] EffectFamily unnamed_reversal();

@@ -21,7 +21,7 @@ namespace {
 /// Where courses stand among the shape values.
 constexpr std::size_t kFaceOfWave = 2, kTurnOfWave = kFaceOfWave + FlankCourse::kValues,
                       kProfileOfPlace = 4, kFaceOfPlace = kProfileOfPlace + FlankCourse::kValues,
-                      kEndsOfPlace = kFaceOfPlace + FlankCourse::kValues;
+                      kEndsOfPlace = kFaceOfPlace + FlankCourse::kValues, kFaceOfFacing = 2;
 
 /// No gate is as wide, to either side.
 constexpr double kWide_deg = 40.0;
@@ -205,6 +205,44 @@ EffectFamily unnamed_body_wave() {
     text += turning;
     return text + (shape[1] == 0.0 ? ", as from a light, a bath or a mould that differs by side"
                                    : ", as from what grips one end, or from hardening");
+  };
+  return f;
+}
+
+/// Walls that face a direction stand out along a part of the height, more and more towards an end
+/// or all over, those that face away do not: a fan, a light or a nozzle of one side. Told in place
+/// of tilts, tapers, offsets and waves around the gear that follow it (part/fields.cpp), and no
+/// candidate of its own.
+EffectFamily unnamed_body_facing() {
+  EffectFamily f = described("unnamed_body_facing", {"towards_deg", "power", "face_course",
+                                                     "face_mm", "face_towards", "face_half_mm"});
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = p.surface == Surface::kFlank
+               ? faces(p, shape[0], shape[1]) *
+                     FlankCourse::at(shape, kFaceOfFacing).value(g, 1.0, p.z_mm)
+               : 0.0;
+  };
+  f.faces_a_direction = true;
+  f.needs = [](const EffectShape&) {
+    return NeedsToBeSeen{.along_face = true, .several_heights = true};
+  };
+  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
+  f.bends_over_the_face = [](const EffectShape&) { return true; };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes = facings_beside(shape);
+    put_courses_beside(g, shape, kFaceOfFacing, 1.0, shapes);
+    return shapes;
+  };
+  f.values_sought = [](const EffectShape& shape) {
+    return 1 + FlankCourse::at(shape, kFaceOfFacing).values_sought();
+  };
+  f.term_keys = {number("towards_deg"), {"power"}};
+  add_keys_of_course("face", f);
+  f.words = [](const ToldForm& told) {
+    const std::string where = FlankCourse::at(told.shape, kFaceOfFacing).words(told.geometry, 1.0);
+    return "walls that face " + gear_effects::towards(told.shape[0]) + " " + stand(told.sign()) +
+           (where.empty() ? "" : ", " + where) +
+           ", those that face away do not, as from a fan, a light or a jet of one side";
   };
   return f;
 }

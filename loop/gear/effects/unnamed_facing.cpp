@@ -42,20 +42,10 @@ EffectFamily unnamed_facing() {
 EffectFamily unnamed_facing_one_side() {
   EffectFamily f = described("unnamed_facing_one_side", {"towards_deg", "power"});
   f.evaluate = [](const FlankGeometry&, const Place& p, const EffectShape& shape, double* c) {
-    c[0] = 0.0;
-    if (p.surface != Surface::kFlank) return;
-    const double towards = rad_from_deg(shape[0]);
-    const double faced = std::max(
-        0.0, std::cos(towards) * p.normal_direction[0] + std::sin(towards) * p.normal_direction[1]);
-    c[0] = shape[1] == 2.0 ? faced * faced : faced;
+    c[0] = p.surface == Surface::kFlank ? faces(p, shape[0], shape[1]) : 0.0;
   };
   f.faces_a_direction = true;
-  f.nearby = [](const FlankGeometry&, const EffectShape& shape) {
-    std::vector<EffectShape> shapes{{shape[0], 3.0 - shape[1]}};
-    for (const double off : {-8.0, -3.0, -1.0, -0.3, 0.3, 1.0, 3.0, 8.0})
-      shapes.push_back({shape[0] + off, shape[1]});
-    return shapes;
-  };
+  f.nearby = [](const FlankGeometry&, const EffectShape& shape) { return facings_beside(shape); };
   f.term_keys = {number("towards_deg"), {"power"}};
   f.words = [](const ToldForm& told) {
     return "flanks that face " + gear_effects::towards(told.shape[0]) + " " + stand(told.sign()) +

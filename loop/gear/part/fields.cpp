@@ -10,12 +10,14 @@
 #include <utility>
 #include <vector>
 
+#include "trueflank/loop/gear/effects/simple_courses.h"
 #include "trueflank/loop/gear/local/likeliest_products.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/parts_of_forms.h"
 #include "trueflank/loop/gear/part/runs_along.h"
+#include "trueflank/loop/gear/part/whole_forms.h"
 
 namespace trueflank::loop {
 namespace {
@@ -136,6 +138,47 @@ bool tell_as_facing(PartModel& model) {
       return true;
   }
   return false;
+}
+
+std::vector<Effect> with_walls_of_one_side(const PartModel& model,
+                                           std::vector<std::size_t>& these) {
+  constexpr double kMostWaves = 4.0, kStep_deg = 10.0;
+  std::vector<std::size_t> all, names;
+  bool leans = false, grows = false, bends = false;
+  for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
+    const Effect& effect = model.effects[e];
+    const EffectFamily& family = *effect.family;
+    if (family.local || family.tells_order_along_profile) continue;
+    const NeedsToBeSeen needs = effect.needs();
+    const Runs runs = runs_of(model.geometry, effect, Flanks::kOfEither);
+    const bool moves = effect.columns() == 2 && effect.order() == 0.0 && runs == Runs::kOtherwise &&
+                       !needs.along_profile && !family.shape_is_step &&
+                       (family.displacement_mm || needs.several_heights);
+    const bool wave = effect.columns() == 2 && effect.order() > 0.0 &&
+                      effect.order() <= kMostWaves && !needs.along_profile;
+    const bool facing = &family == find_family("unnamed_facing") ||
+                        &family == find_family("unnamed_facing_one_side");
+    if (!moves && !wave && !facing && runs != Runs::kNowhere && runs != Runs::kOverFace) continue;
+    all.push_back(e);
+    if (family.named) names.push_back(e);
+    leans =
+        leans || (moves && needs.several_heights) || (effect.order() == 1.0 && needs.along_face);
+    grows = grows || runs == Runs::kOverFace;
+    bends = bends || (wave && effect.order() > 1.0 && needs.along_face);
+  }
+  if (!leans || !grows || !bends) return {};
+  std::vector<Effect> forms;
+  const double face_mm = model.geometry.face_width_mm();
+  for (double towards_deg = 0.0; towards_deg < 360.0; towards_deg += kStep_deg)
+    for (const double towards : {-1.0, 1.0}) {
+      EffectShape shape{towards_deg, 1.0};
+      shape.resize(2 + gear_effects::FlankCourse::kValues);
+      gear_effects::FlankCourse{gear_effects::FlankCourse::kKink, towards > 0.0 ? 0.0 : face_mm,
+                                towards}
+          .put_in(shape, 2);
+      forms.push_back({find_family("unnamed_body_facing"), FlankChoice::kBoth, std::move(shape)});
+    }
+  return cheapest_one_form(model, with_and_without(all, names), forms, {}, these);
 }
 
 bool tell_as_alternating_wave(PartModel& model) {

@@ -12,6 +12,11 @@ namespace trueflank::loop {
 /// on its two flanks; of flanks that face one side, also a mean and what looks like an
 /// eccentricity, which is tried beside it too.
 [[nodiscard]] bool tell_as_facing(PartModel& model);
+/// Walls that face one side and stand out along a part of the height are, in pieces, an offset, a
+/// taper, an eccentricity, a tilt and waves of either flank. One such form in place of these; empty
+/// where none stands.
+[[nodiscard]] std::vector<Effect> with_walls_of_one_side(const PartModel& model,
+                                                         std::vector<std::size_t>& these);
 /// A wave over the profile whose sign changes from tooth to tooth (a cutter of two starts) is every
 /// other tooth's forms and orders that are half a multiple of the teeth.
 [[nodiscard]] bool tell_as_alternating_wave(PartModel& model);

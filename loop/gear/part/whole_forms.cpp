@@ -228,6 +228,7 @@ bool take_up_whole_forms(PartModel& model) {
   RemainderFinding finding;
   std::vector<Effect> with = with_form_on_teeth(model, these, finding.p_value);
   if (with.empty()) with = with_wave_of_the_tool(model, these);
+  if (with.empty()) with = with_walls_of_one_side(model, these);
   if (with.empty()) with = with_sections_aside(model, these);
   if (with.empty()) with = with_one_side(model, these);
   if (with.empty()) with = with_reversal(model, these);
