@@ -76,6 +76,39 @@ TEST(Roofs, AreNoSlopeBesideAKink) {
   }
 }
 
+// Pressed from both sides: lowest at a height off the middle, as much out at both ends. The mean of
+// it is no thicker tooth, and the two slopes are no taper.
+TEST(WaistOfTheFlanks, IsOneFormAndNoThicknessTaperAndKink) {
+  for (unsigned seed = 1; seed <= survey_size(2U, 8U); ++seed) {
+    Draw draw = come_and_go_draw(seed);
+    const MadeGear gear = spur(draw.whole(19, 28));
+    const double um = draw.between(30.0, 70.0),
+                 at = (seed % 2 == 0 ? -1.0 : 1.0) * draw.between(0.2, 0.45);
+    const auto waist = grown([=](auto&, const FlankSpot& s, auto&) {
+      return um * (s.v < at ? (at - s.v) / (at + 1.0) : (s.v - at) / (1.0 - at));
+    });
+    ScanOptions options = scanned(6000, 4.0, seed);
+    options.any_pose = seed % 2 == 0;
+    const auto result = close(gear, scan_of(gear, {waist}, options), !options.any_pose);
+    EXPECT_FALSE(has_name(result)) << list(result);
+    ASSERT_EQ(result.effects.size(), 1U) << list(result);
+    EXPECT_TRUE(tells(result, "from there straight to both ends")) << list(result);
+    EXPECT_NEAR(parameter(result.effects[0], "amplitude_um").value, um, 1.5) << list(result);
+  }
+}
+
+TEST(WaistOfTheFlanks, LeavesASlopeBesideItWhatItIs) {
+  const MadeGear gear = spur(22);
+  const auto made = grown([](auto&, const FlankSpot& s, auto&) {
+    return 50.0 * (s.v < 0.3 ? (0.3 - s.v) / 1.3 : (s.v - 0.3) / 0.7) + 14.0 * s.v;
+  });
+  const auto result = close(gear, scan_of(gear, {made}, scanned(6000, 5.0, 3)), true);
+  ASSERT_EQ(result.effects.size(), 2U) << list(result);
+  EXPECT_TRUE(tells(result, "from there straight to both ends")) << list(result);
+  EXPECT_TRUE(tells(result, "the teeth grow thicker with height")) << list(result);
+  EXPECT_NEAR(parameter(result.effects[0], "amplitude_um").value, 28.0, 2.0) << list(result);
+}
+
 TEST(SpokesOfARim, AreSoManyHollowsAboutAHeight) {
   for (unsigned seed = 1; seed <= survey_size(2U, 6U); ++seed) {
     Draw draw = come_and_go_draw(seed);

@@ -10,10 +10,9 @@
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/effects/sign_words.h"
 
-// Forms that no polynomial and no slow wave describes: a step, a groove or ridge, a strip, a
-// short wave. They describe and are given no cause. They are no candidates of their own:
-// the search through the remainder says which of them, and where (remainder.h), or they are tried
-// in place of several effects (one_form.cpp).
+// Forms that no polynomial and no slow wave describes: a step, a groove or ridge, a strip, a short
+// wave. They describe without a cause and are no candidates: the remainder says which of them, and
+// where (remainder.h), or they are tried in place of several effects (one_form.cpp).
 namespace trueflank::loop::gear_effects {
 namespace {
 
@@ -120,9 +119,9 @@ EffectFamily unnamed_step() {
 }
 
 /// Straight to its place and straight on in another direction: nothing on the one side, 1 at the
-/// end of the other; or a roof, 1 at the end of the longer side.
+/// end of the other; or a roof, 1 at the end of the longer side; or a waist, 1 at both ends.
 EffectFamily unnamed_kink() {
-  constexpr double kBefore = -1.0, kBoth = 0.0, kBeyond = 1.0;
+  constexpr double kBefore = -1.0, kBoth = 0.0, kBeyond = 1.0, kWaist = 2.0;
   EffectFamily f = along_flank(
       "unnamed_kink", {"along", "place_mm", "bends"},
       [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
@@ -130,11 +129,13 @@ EffectFamily unnamed_kink() {
         const double low = end_mm(g, shape[0], kBefore) - at,
                      high = end_mm(g, shape[0], kBeyond) - at;
         if (shape[2] == kBoth) return std::abs(off) / std::max(std::abs(low), std::abs(high));
-        const double range = shape[2] == kBeyond ? high : low;
+        const bool beyond = shape[2] == kWaist ? off * high > 0.0 : shape[2] == kBeyond;
+        const double range = beyond ? high : low;
         return range != 0.0 ? std::max(0.0, off / range) : 0.0;
       });
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     std::vector<EffectShape> shapes = places_inside(g, shape);
+    if (shape[2] == kWaist) return shapes;  // (one in the middle is a roof)
     for (const double bends : {kBefore, kBeyond, kBoth})
       if (bends != shape[2]) shapes.push_back({shape[0], shape[1], bends});
     return shapes;
@@ -145,9 +146,11 @@ EffectFamily unnamed_kink() {
     const EffectShape& shape = told.shape;
     const bool opposite = is_opposite(shape, 3);
     return "the same on every tooth, a kink " + over(shape[0]) + " " +
-           at_place(told.geometry, shape[0], shape[1]) + ", straight on in another direction" +
-           towards(shape[0], shape[2]) + opposite_words(opposite) +
-           there("there", told.sign(), opposite);
+           at_place(told.geometry, shape[0], shape[1]) +
+           (shape[2] == kWaist
+                ? ", from there straight to both ends alike"
+                : ", straight on in another direction" + towards(shape[0], shape[2])) +
+           opposite_words(opposite) + there("there", told.sign(), opposite);
   };
   return on_either_flank(std::move(f));
 }

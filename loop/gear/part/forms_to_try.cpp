@@ -79,6 +79,10 @@ std::vector<Effect> roofs_along(const FlankGeometry& geometry, double face, Flan
   for (const double share : {0.3, 0.4, 0.5, 0.6, 0.7})  // (one that leans far is a kink)
     roofs.push_back(
         {find_family("unnamed_kink"), flank, {face, place_at(geometry, face, share), 0.0}});
+  constexpr double kToBothEnds = 2.0;
+  for (const double share : {0.2, 0.3, 0.4, 0.6, 0.7, 0.8})
+    roofs.push_back(
+        {find_family("unnamed_kink"), flank, {face, place_at(geometry, face, share), kToBothEnds}});
   return roofs;
 }
 

@@ -26,7 +26,7 @@ void turn_kinks_beside_slopes(PartModel& model) {
   const EffectFamily* kinks = find_family("unnamed_kink");
   for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {
     Effect& kink = model.effects[e];
-    if (kink.family != kinks || kink.shape[2] == 0.0) continue;
+    if (kink.family != kinks || std::abs(kink.shape[2]) != 1.0) continue;
     const Runs runs = kink.shape[0] != 0.0 ? Runs::kOverFace : Runs::kOverProfile;
     const bool beside_slope =
         std::any_of(model.effects.begin(), model.effects.end(), [&](const Effect& other) {

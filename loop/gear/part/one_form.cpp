@@ -129,6 +129,36 @@ bool tell_as_form_beside_slope(PartModel& model, const std::vector<std::size_t>&
   return false;
 }
 
+/// A waist beside the slope that has a name, for a kink, that slope and what lifts all flanks:
+/// these undo its mean and one of its sides.
+bool tell_as_waist_beside_slope(PartModel& model, const std::vector<std::size_t>& along, int face,
+                                FlankChoice flank) {
+  constexpr double kToBothEnds = 2.0;
+  std::vector<std::size_t> these = along, slopes;
+  bool kink = false, level = false;
+  for (const std::size_t e : along) {
+    const Effect& effect = model.effects[e];
+    kink = kink || (effect.family == find_family("unnamed_kink") && effect.shape[2] != kToBothEnds);
+    if (effect.family->named && is_straight(model.geometry, effect)) slopes.push_back(e);
+  }
+  for (std::size_t e = first_told_here(model); kink && e < model.effects.size(); ++e)
+    if (model.effects[e].flank == flank &&
+        runs_of(model.geometry, model.effects[e]) == Runs::kNowhere) {
+      these.push_back(e);
+      level = true;
+    }
+  if (!kink || !level || slopes.size() != 1) return false;
+  std::sort(these.begin(), these.end());
+  std::vector<Effect> rest = without(model.effects, these), waists;
+  rest.push_back(model.effects[slopes.front()]);
+  for (Effect& roof : roofs_along(model.geometry, face, flank))
+    if (roof.shape[2] == kToBothEnds) waists.push_back(std::move(roof));
+  const std::vector<Effect> with = with_best_form(model, rest, waists, {});
+  if (with.empty() || cost_of(model, with) > cost_of(model, model.effects)) return false;
+  put_in_place_of(model, these, with);
+  return true;
+}
+
 /// A hollow or swelling of these flanks that ends by itself, or with an edge, for these effects.
 bool put_dish_for(PartModel& model, const std::vector<std::size_t>& these, FlankChoice flank) {
   for (const char* family : {"unnamed_dish", "unnamed_patch"})
@@ -523,7 +553,9 @@ void tell_as_one_form(PartModel& model) {
           if ((has_name(set) || (set.size() > 1 && set.size() == all.size())) &&
               along_one(set, face, flank))
             return true;
-        if (tell_as_form_beside_slope(model, all, face, flank)) return true;
+        if (tell_as_waist_beside_slope(model, all, face, flank) ||
+            tell_as_form_beside_slope(model, all, face, flank))
+          return true;
       }
     }
     for (const int face : {0, 1})
