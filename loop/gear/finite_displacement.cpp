@@ -220,6 +220,14 @@ void move_scans(const FlankGeometry& geometry, const std::vector<Pose>& by, Obse
   table.is_displaced = false;
 }
 
+void move_points(const FlankGeometry& geometry, const std::vector<std::size_t>& rows,
+                 const std::array<double, 3>& by_mm, Observations& table) {
+  for (const std::size_t row : rows)
+    for (std::size_t k = 0; k < 3; ++k) table.points_mm[row][k] += by_mm[k];
+  table.is_displaced = true;
+  undo_displacement(geometry, table);
+}
+
 void undo_displacement(const FlankGeometry& geometry, Observations& table) {
   if (!table.is_displaced) return;
   largest_of_points(table, [&](std::size_t from, std::size_t to) {

@@ -25,6 +25,10 @@ double linearise_at(const FlankGeometry& geometry, const PointFit& fit, Observat
 /// Moves the points of each scan; deviations and places are of the gear as designed again.
 void move_scans(const FlankGeometry& geometry, const std::vector<Pose>& by, Observations& table);
 
+/// Moves the points of these rows; deviations and places are of the gear as designed again.
+void move_points(const FlankGeometry& geometry, const std::vector<std::size_t>& rows,
+                 const std::array<double, 3>& by_mm, Observations& table);
+
 /// Deviations and places of the gear as designed, as make_observations had them: computed again
 /// from the points, which takes no memory beside the table.
 void undo_displacement(const FlankGeometry& geometry, Observations& table);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/gear/part/part_loop.h"
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "trueflank/loop/gear/part/one_flank.h"
 #include "trueflank/loop/gear/part/other_starts.h"
 #include "trueflank/loop/gear/part/parts_of_forms.h"
+#include "trueflank/loop/gear/part/points_aside.h"
 #include "trueflank/loop/gear/part/records.h"
 #include "trueflank/loop/gear/part/settled_names.h"
 #include "trueflank/loop/gear/part/single_teeth.h"
@@ -133,9 +135,12 @@ void explain_part(PartModel& model) {
 
 void explain_measured_part(PartModel& model) {
   explain_part(model);
-  if (!weigh_beside_forms(model)) return;
-  look_at_neighbours(model);
-  tell_what_is_left(model);
+  const std::optional<RemainderFinding> aside = explain_without_points_aside(model);
+  if (weigh_beside_forms(model)) {
+    look_at_neighbours(model);
+    tell_what_is_left(model);
+  }
+  if (aside) model.remainder.insert(model.remainder.begin(), *aside);
 }
 
 }  // namespace trueflank::loop
