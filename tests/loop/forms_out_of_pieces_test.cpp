@@ -174,11 +174,11 @@ std::vector<Forms> forms_along_flanks(const loop::FlankGeometry& geometry) {
 std::vector<Forms> forms_of_the_part(const loop::FlankGeometry& geometry) {
   std::vector<Forms> kinds{loop::dishes(geometry, FlankChoice::kBoth, "unnamed_dish"),
                            loop::swellings_around(geometry.teeth(), FlankChoice::kBoth),
-                           loop::bows_of_the_axis(), loop::kinks_of_the_axis(geometry),
-                           loop::soft_shifts(geometry)};
+                           loop::bows_of_the_axis(), loop::kinks_of_the_axis(geometry)};
   for (const int number : {1, 2, 3}) kinds.push_back(loop::swellings_at_ends(geometry, number));
   for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight})
     kinds.push_back(loop::corners(geometry, flank));
+  kinds.push_back(loop::soft_shifts(geometry));
   return kinds;
 }
 std::vector<Forms> levels_around(const loop::FlankGeometry& geometry) {
@@ -311,7 +311,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Draw{"along", false, forms_along_flanks,
              "1.s1s....1..111...1ss..1....1.1ss...1ss..1...1ss.1.1.."},
-        Draw{"part", false, forms_of_the_part, "1ss...1ss......1ss1ss1s..1s1s."},
+        Draw{"part", false, forms_of_the_part, "1ss...1ss......1ss1ss1s..1s1s...."},
         Draw{"levels", false, levels_around,
              "111111.1.1.1...........1.....................111111111..............................."
              "..1.....11111.........................11111......................"},
@@ -320,7 +320,7 @@ INSTANTIATE_TEST_SUITE_P(
         Draw{"names", false, names_of_every_kind,
              ".ss11.111sss...111..s1..111sss...11.111s1s11...s111s..111s.....111111111"},
         Draw{"chosen_along", false, forms_along_flanks, ".11ss.s.s1ssssss..", true},
-        Draw{"chosen_part", false, forms_of_the_part, "1..s...s1s", true},
+        Draw{"chosen_part", false, forms_of_the_part, "1..s...s1ss", true},
         Draw{"chosen_levels", false, levels_around,
              "111....11.....11............1.1...1........1......", true},
         Draw{"chosen_slopes", false, slopes_around, "11s.11...1...1..", true},
@@ -332,7 +332,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Draw{"along", true, forms_along_flanks,
              "s.sss....s..111...ss.sss....ss1s1s..ssssss.s...s.ss1ss"},
-        Draw{"part", true, forms_of_the_part, "s1s...sss......s1ssss.ss..ss.."},
+        Draw{"part", true, forms_of_the_part, "s1s...sss......s1ssss.ss..ss....."},
         Draw{"levels", true, levels_around,
              "111.11.1.1.1.................................111111.1................................"
              "........11111........................111111......................"},
@@ -341,7 +341,7 @@ INSTANTIATE_TEST_SUITE_P(
         Draw{"names", true, names_of_every_kind,
              "111...1111s1........s..1111sss....11111111111sss111sss1111.....1..111111"},
         Draw{"chosen_along", true, forms_along_flanks, "..1s1.s.sss11sss..", true},
-        Draw{"chosen_part", true, forms_of_the_part, ".1.s......", true},
+        Draw{"chosen_part", true, forms_of_the_part, ".1.s......s", true},
         Draw{"chosen_levels", true, levels_around,
              ".111111.11111111.1111.11111111111.1111.11111111111", true},
         Draw{"chosen_slopes", true, slopes_around, "s1.s11s.11..11s.", true},
