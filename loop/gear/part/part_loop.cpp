@@ -16,6 +16,7 @@
 #include "trueflank/loop/gear/part/records.h"
 #include "trueflank/loop/gear/part/settled_names.h"
 #include "trueflank/loop/gear/part/single_teeth.h"
+#include "trueflank/loop/gear/part/slopes_beside_waves.h"
 #include "trueflank/loop/gear/part/structure_left.h"
 #include "trueflank/loop/gear/part/taken_up.h"
 #include "trueflank/loop/gear/part/tidying.h"
@@ -127,6 +128,7 @@ void explain_part(PartModel& model) {
   tell_opposite_forms(model);
   tell_waves_as_pattern(model);
   name_what_is_settled(model);
+  tell_slopes_beside_waves(model);
   tell_likeliest_names(model);
   tell_the_usual_of_equals(model);
   drop_names_that_may_be_nothing(model);
