@@ -86,8 +86,8 @@ class PartsOfRun {
 /// ago the direction changed. A load must move by a fortieth of the largest to have turned; a dwell
 /// at the turn is half of the way before and half of the one after.
 void note_history(std::vector<BenchPoint>& points);
-/// Notes of every row which it is, and the one that was taken right before it. Once no more rows are
-/// left out.
+/// Notes of every row which it is, and the one that was taken right before it. Once no more rows
+/// are left out.
 void note_places(std::vector<BenchPoint>& points);
 
 }  // namespace trueflank::loop

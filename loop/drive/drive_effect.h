@@ -47,7 +47,7 @@ struct DriveContext {
   mutable LastRows<int> last_rows_since = {};
   mutable LastRows<double> last_powers = {}, last_memories = {};
   mutable RowValues row_efficiencies = {}, row_friction_slopes = {},
-      row_flank_changes = {};  ///< of this table and state
+                    row_flank_changes = {};  ///< of this table and state
 
   [[nodiscard]] DriveContext in_state(const DriveState& other) const {
     return {model, curve, table, mesh_curves, other};
