@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -230,15 +229,6 @@ EffectFamily unnamed_waves_changing() {
     }
     for (const double off : {-0.1, -0.03, -0.01, -0.003, -0.001, 0.001, 0.003, 0.01, 0.03, 0.1})
       if (std::abs(shape[2] + off) < kMost) shapes.push_back({shape[0], shape[1], shape[2] + off});
-    // Waves in a millimetre at either end: where they fit is narrow along neither value.
-    constexpr std::array<double, 7> kTimes{0.97, 0.99, 0.997, 1.0, 1.003, 1.01, 1.03};
-    for (const double low : kTimes)
-      for (const double high : kTimes) {
-        const double at_low = low * (1.0 - shape[2]), at_high = high * (1.0 + shape[2]);
-        const double change = (at_high - at_low) / (at_high + at_low);
-        if (std::abs(change) < kMost && (low != 1.0 || high != 1.0))
-          shapes.push_back({shape[0], 2.0 * shape[1] / (at_low + at_high), change});
-      }
     return shapes;
   };
   f.words = [](const ToldForm& told) {

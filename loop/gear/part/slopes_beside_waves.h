@@ -5,10 +5,10 @@
 
 namespace trueflank::loop {
 
-/// Beside waves that every flank has along the profile, or the face, whose length or place is not
-/// yet quite theirs, a straight slope looks bent at an end: it was told as a wear or a kink there.
-/// A slope that has a name is told where it costs no more, the waves moved to where they fit beside
-/// it; and beside one that is told already the waves are moved.
+/// In traces, beside waves that change their length and are not yet quite where they fit, a
+/// straight slope looks bent at an end: it was told as a wear or a kink there. A slope that has a
+/// name is told where it costs no more, the waves moved to where they fit beside it; and beside one
+/// that is told already the waves are moved.
 void tell_slopes_beside_waves(PartModel& model);
 
 }  // namespace trueflank::loop
