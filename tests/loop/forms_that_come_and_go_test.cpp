@@ -313,6 +313,51 @@ TEST(BurstsOfADrive, AreNoKnockAtOneSide) {
   }
 }
 
+// From any tooth on, shorter or longer, beside an eccentricity in every other draw.
+TEST(StretchingWaves, OfAnIndexAreOneFormAndNotOneForEveryOrder) {
+  for (unsigned seed = 1; seed <= survey_size(3U, 12U); ++seed) {
+    Draw draw = come_and_go_draw(seed);
+    const MadeGear gear = spur(draw.whole(45, 70));
+    const double um = draw.between(2.5, 6.0), noise = draw.between(0.25, 0.5),
+                 few = draw.between(3.0, 5.5), more = draw.between(5.0, 8.0),
+                 phase = draw.between(0.0, 6.28);
+    const int from = draw.whole(1, gear.teeth);
+    const double at_first = seed % 3 == 0 ? few + more : few, change = seed % 3 == 0 ? -more : more;
+    const auto stretched = grown([&](const MadeGear& g, const FlankSpot& s, auto&) {
+      const double share = double((s.tooth - from + g.teeth) % g.teeth) / g.teeth;
+      const double off = seed % 2 == 0 ? 5.0 * std::cos(direction_of_tooth(g, s) - 1.0) : 0.0;
+      return s.side *
+             (um * std::cos(2.0 * kPiOfForms * (at_first * share + 0.5 * change * share * share) -
+                            phase) +
+              off);
+    });
+    const auto result = index_of_made(gear, stretched, noise, seed);
+    EXPECT_EQ(result.effects.size(), seed % 2 == 0 ? 2U : 1U) << seed << list(result);
+    const auto wave =
+        std::find_if(result.effects.begin(), result.effects.end(), [](const auto& effect) {
+          return effect.description.find("in waves that get evenly") != std::string::npos;
+        });
+    ASSERT_NE(wave, result.effects.end()) << seed << list(result);
+    EXPECT_NEAR(parameter(*wave, "amplitude_um").value, um, 0.2 * um) << seed << list(result);
+    EXPECT_NEAR(wave->terms.front().shape[0], at_first, 0.5) << seed << list(result);
+    EXPECT_NEAR(wave->terms.front().shape[1], at_first + change, 0.6) << seed << list(result);
+  }
+}
+
+TEST(StretchingWaves, AreNoneOfWavesOfOneLengthAndOfNoise) {
+  for (unsigned seed = 1; seed <= survey_size(4U, 24U); ++seed) {
+    Draw draw = come_and_go_draw(100 + seed);
+    const MadeGear gear = spur(draw.whole(30, 70));
+    const double um = seed % 2 == 0 ? draw.between(2.0, 5.0) : 0.0;
+    const int waves = draw.whole(3, 9);
+    const auto made = grown([&](const MadeGear& g, const FlankSpot& s, auto&) {
+      return s.side * um * std::cos(waves * direction_of_tooth(g, s));
+    });
+    const auto result = index_of_made(gear, made, draw.between(0.25, 0.6), seed);
+    EXPECT_FALSE(tells(result, "get evenly")) << seed << list(result);
+  }
+}
+
 TEST(FormsThatGrowAnew, AreOneFormFromNothing) {
   for (unsigned seed = 1; seed <= survey_size(2U, 8U); ++seed) {
     Draw draw = come_and_go_draw(seed);

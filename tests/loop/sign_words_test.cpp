@@ -58,7 +58,8 @@ TEST(SignWords, AreSaidOfEveryFormOfOneCoefficient) {
         // (play is said by its axis; the words of those of some teeth are those of all)
         "unnamed_wobble", "unnamed_reversal", "unnamed_kink_of_teeth", "unnamed_bend_of_teeth",
         "unnamed_waviness_of_teeth", "unnamed_dish_of_teeth", "unnamed_slanted_ridge_of_teeth",
-        "unnamed_corner_of_teeth", "unnamed_moved_part", "unnamed_soft_shift"};
+        "unnamed_corner_of_teeth", "unnamed_moved_part", "unnamed_soft_shift",
+        "unnamed_stretching_wave"};
     EXPECT_TRUE(known.contains(family.id) || kOther.contains(family.id)) << family.id;
   }
   for (const loop::EffectFamily& named : loop::effect_library()) {

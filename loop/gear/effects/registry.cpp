@@ -77,6 +77,7 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_slit(),
         unnamed_arch_around(),
         unnamed_changing_wave(),
+        unnamed_stretching_wave(),
         unnamed_plane_wave(),
         unnamed_plane_saw(),
         unnamed_plane_stripes(),

@@ -111,6 +111,7 @@ namespace trueflank::loop::gear_effects {
 /// True where steps of so many teeth come to every tooth before they come around.
 [[nodiscard]] bool can_be_cut_in_steps(int teeth, int step);
 [[nodiscard]] EffectFamily unnamed_changing_wave();
+[[nodiscard]] EffectFamily unnamed_stretching_wave();
 [[nodiscard]] EffectFamily unnamed_plane_wave();
 [[nodiscard]] EffectFamily unnamed_plane_saw();
 /// Waves of the plane in any direction, along the normals.

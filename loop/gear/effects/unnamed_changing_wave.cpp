@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Waves from tooth to tooth whose size changes: they grow or fade once around, ring and die away,
-// or come in a burst.
+// or come in a burst; or whose length changes.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -12,6 +12,7 @@
 #include "trueflank/loop/gear/effects/along_flank.h"
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/effects/stretching_wave.h"
 
 namespace trueflank::loop::gear_effects {
 namespace {
@@ -85,6 +86,63 @@ EffectFamily unnamed_changing_wave() {
                       ", as where a drive rattles for a while"
                 : printed(" that die away, to a third within %.2g teeth", shape[kWithin]) +
                       ", as where something rings after a knock");
+  };
+  return f;
+}
+
+/// Waves whose length changes evenly from a tooth on, once around.
+EffectFamily unnamed_stretching_wave() {
+  enum Value : std::size_t { kAtFirst, kAtLast, kFrom, kSides };
+  EffectFamily f = described("unnamed_stretching_wave", {"periods_per_turn", "periods_at_the_end",
+                                                         "first_tooth", "opposite_flanks"});
+  f.is_drift = true;
+  f.columns = [](const EffectShape&) { return 2; };
+  set_columns(f, {[](const FlankGeometry& g, int tooth, const EffectShape& shape, double* factors) {
+                    const double share = teeth_since(g, tooth, shape[kFrom]) / (1.0 * g.teeth());
+                    const double angle =
+                        kTwoPi * share *
+                        (shape[kAtFirst] + 0.5 * (shape[kAtLast] - shape[kAtFirst]) * share);
+                    factors[0] = std::cos(angle);
+                    factors[1] = std::sin(angle);
+                  },
+                  [](const FlankGeometry&, const Place& p, const EffectShape& shape) {
+                    return shape[kSides] != 0.0 ? static_cast<double>(p.side) : 1.0;
+                  }});
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    const double z = g.teeth();
+    std::vector<EffectShape> shapes;
+    const auto add = [&](double at_first, double at_last, double teeth) {
+      if (at_first < kFewestOfStretching || at_last < kFewestOfStretching ||
+          std::max(at_first, at_last) > most_of_stretching(g.teeth()))
+        return;
+      shapes.push_back(shape);
+      shapes.back()[kAtFirst] = at_first;
+      shapes.back()[kAtLast] = at_last;
+      shapes.back()[kFrom] = std::fmod(shape[kFrom] - 1.0 + teeth + z, z) + 1.0;
+    };
+    for (const double first : {-0.3, -0.1, -0.03, 0.0, 0.03, 0.1, 0.3})
+      for (const double last : {-0.3, -0.1, -0.03, 0.0, 0.03, 0.1, 0.3})
+        if (first != 0.0 || last != 0.0) add(shape[kAtFirst] + first, shape[kAtLast] + last, 0.0);
+    // (from another tooth on, each tooth has the length that it had)
+    for (const double teeth : {-2.0, -1.0, 1.0, 2.0}) {
+      const double more = (shape[kAtLast] - shape[kAtFirst]) * teeth / z;
+      add(shape[kAtFirst] + more, shape[kAtLast] + more, teeth);
+    }
+    return shapes;
+  };
+  f.term_keys = {number("periods_per_turn"),
+                 number("periods_at_the_end"),
+                 {"first_tooth"},
+                 {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}}};
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    return printed("from tooth %.0f on, once around, the teeth stand ", shape[kFrom]) +
+           (shape[kSides] != 0.0 ? "ahead and behind" : "high and low") +
+           printed(
+               " in waves that get evenly %s, of %.3g a turn at first and %.3g a turn at the "
+               "end, as where a drive stretches or slips more and more",
+               shape[kAtLast] > shape[kAtFirst] ? "shorter" : "longer", shape[kAtFirst],
+               shape[kAtLast]);
   };
   return f;
 }

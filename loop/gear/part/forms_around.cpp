@@ -22,6 +22,7 @@
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/runs_along.h"
+#include "trueflank/loop/gear/part/stretching_waves_beside.h"
 #include "trueflank/loop/gear/part/taken_up.h"
 #include "trueflank/loop/gear/part/tidying.h"
 #include "trueflank/loop/gear/remainder_around.h"
@@ -195,6 +196,7 @@ std::vector<RemainderFinding> forms_around(const PartModel& model, const CourseO
       if (flank != FlankChoice::kBoth) continue;
       for (std::vector<Effect>& set : slits_arches_bursts(model.geometry.teeth(), opposite))
         sets.push_back(std::move(set));
+      sets.push_back(stretching_waves_beside(model, rest, beside, opposite != 0.0));
     }
   std::erase_if(sets, [](const std::vector<Effect>& set) { return set.empty(); });
   constexpr std::size_t kMovedEach = 4;  // and where each could come to
@@ -208,8 +210,11 @@ std::vector<RemainderFinding> forms_around(const PartModel& model, const CourseO
            set.front().family == find_family("unnamed_arch_around") ||
            set.front().family == find_family("unnamed_sectors");
   };
+  const auto stretch = [](const std::vector<Effect>& set) {
+    return set.front().family == find_family("unnamed_stretching_wave");
+  };
   for (const std::vector<Effect>& set : sets)
-    if (!is_of_many(set)) tried += kMovedEach * set.size() * beside.size();
+    if (!is_of_many(set) && !stretch(set)) tried += kMovedEach * set.size() * beside.size();
   tried += beside.size() * patterns_tried(model.geometry.teeth());
   // Both flanks of a tooth may share their error: a value a tooth.
   const double none = fit_of(model, rest)->residual_square();
@@ -249,9 +254,10 @@ std::vector<RemainderFinding> forms_around(const PartModel& model, const CourseO
                           (form.family == find_family("unnamed_sectors") ? kOfBlocks : 0.0);
       if (cost >= best.first) continue;
       best.first = cost;
-      best.second.p_value =
-          chance(square, values_of({form}, true) + values_of(names, true),
-                 is_of_many(set) ? kMovedEach * set.size() * beside.size() : tried);
+      best.second.p_value = chance(square, values_of({form}, true) + values_of(names, true),
+                                   stretch(set) ? looks_for_stretching_waves(model, beside.size())
+                                   : is_of_many(set) ? kMovedEach * set.size() * beside.size()
+                                                     : tried);
       best.second.effect = std::move(form);
     }
     if (best.second.effect) found.push_back(std::move(best));
