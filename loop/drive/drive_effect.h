@@ -45,7 +45,7 @@ struct DriveContext {
   mutable LastValues last_speeds = {}, last_speed_coordinates = {};  ///< of this table
   mutable LastRows<char> last_switched = {};                         ///< of this table
   mutable LastRows<int> last_rows_since = {};
-  mutable LastRows<double> last_powers = {}, last_memories = {};
+  mutable LastRows<double> last_powers = {}, last_memories = {}, last_shares = {};
   mutable RowValues row_efficiencies = {}, row_friction_slopes = {},
                     row_flank_changes = {};  ///< of this table and state
 

@@ -43,6 +43,15 @@ std::vector<double> shares_of_rows(const DriveContext& context, double over) {
   return shares;
 }
 
+const std::vector<double>& shares_of_every_row(const DriveContext& context, double over) {
+  return context.last_shares.of({&over, 1}, [&] {
+    std::vector<double> shares;
+    for (const BenchPoint& p : context.table.every_row())
+      shares.push_back(share_in_range(context, p, over));
+    return shares;
+  });
+}
+
 std::vector<double> edges_to_try(std::vector<double> shares, std::size_t most) {
   std::vector<double> places;
   std::sort(shares.begin(), shares.end());

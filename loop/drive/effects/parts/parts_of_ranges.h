@@ -20,6 +20,9 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] std::vector<double> ranges_with_edges(const DriveContext& context);
 /// share_in_range() of every row.
 [[nodiscard]] std::vector<double> shares_of_rows(const DriveContext& context, double over);
+/// The same of every row of a log, worked out once.
+[[nodiscard]] const std::vector<double>& shares_of_every_row(const DriveContext& context,
+                                                             double over);
 /// Places between rows, with about as many rows between two of them.
 [[nodiscard]] std::vector<double> edges_to_try(std::vector<double> shares, std::size_t most);
 /// Nearly at both ends of the gap between rows in which a place lies: an edge may be anywhere in

@@ -38,8 +38,7 @@ struct SwitchedRows {
 SwitchedRows switched_rows(const DriveContext& context, const DriveShape& s) {
   SwitchedRows rows;
   bool high = (s[kSwitchedStarts] != 0.0) != (s[kSwitchedOnBelow] != 0.0);
-  for (const BenchPoint& p : context.table.every_row()) {
-    const double share = share_in_range(context, p, s[kSwitchedOver]);
+  for (const double share : shares_of_every_row(context, s[kSwitchedOver])) {
     const bool before = high;
     if (high) {
       high = share >= s[kSwitchedLower];
@@ -93,9 +92,10 @@ bool shows_switched(const DriveContext& context, const DriveShape& s) {
   constexpr int kFewestChanges = 3, kFewestBetween = 4;
   if (!(s[kSwitchedLower] < s[kSwitchedUpper])) return false;
   const SwitchedRows rows = switched_rows(context, s);
+  const std::vector<double>& shares = shares_of_every_row(context, s[kSwitchedOver]);
   int high = 0, low = 0;
   for (std::size_t i = 0; i < rows.high.size(); ++i) {
-    const double share = share_in_range(context, context.table.every_row()[i], s[kSwitchedOver]);
+    const double share = shares[i];
     if (share < s[kSwitchedLower] || share > s[kSwitchedUpper]) continue;
     (rows.high[i] != 0 ? high : low) += 1;
   }
