@@ -117,8 +117,10 @@ void move_to_nearest_best(const DriveContext& context, std::span<AskedForm> aske
     std::map<std::pair<const DriveFamily*, DriveShape>, std::vector<std::size_t>> about;
     for (std::size_t a = 0; a < asked.size(); ++a)
       about[{asked[a].form.family, asked[a].form.shape}].push_back(a);
-    for (const auto& [form, who] : about) {
-      const std::vector<DriveShape> shapes = form.first->all_shapes(context, &form.second);
+    for (const auto& same : about) {
+      const DriveFamily& family = *same.first.first;
+      const std::vector<std::size_t>& who = same.second;
+      const std::vector<DriveShape> shapes = family.all_shapes(context, &same.first.second);
       Eigen::MatrixXd gains(static_cast<Eigen::Index>(who.size()),
                             static_cast<Eigen::Index>(shapes.size()));
       for_each_run(shapes.size(), kAtOnce, [&](std::size_t from, std::size_t to) {
@@ -126,7 +128,7 @@ void move_to_nearest_best(const DriveContext& context, std::span<AskedForm> aske
         Eigen::VectorXd column;
         BesideEffects::Room room;
         for (std::size_t k = from; k < to; ++k) {
-          asked[who.front()].beside->put_column(own, *form.first, shapes[k], column);
+          asked[who.front()].beside->put_column(own, family, shapes[k], column);
           for (std::size_t w = 0; w < who.size(); ++w)
             gains(static_cast<Eigen::Index>(w), static_cast<Eigen::Index>(k)) =
                 asked[who[w]].beside->with_column(column, room).gain;
