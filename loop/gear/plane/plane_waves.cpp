@@ -6,9 +6,11 @@
 #include <cmath>
 #include <complex>
 #include <utility>
+#include <vector>
 
 #include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
+#include "trueflank/base/widest_registers.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/gear/effect.h"
 #include "trueflank/loop/gear/effects/along_flank.h"
@@ -38,38 +40,71 @@ PlaneGain gain_of(const std::complex<double>& product, const std::complex<double
   return {cosine * product.real() + sine * product.imag(), std::hypot(cosine, sine)};
 }
 
+/// Adds waves times a factor, and their squares times another; no two of the arrays are the same.
+TRUEFLANK_ALWAYS_INLINE inline void add_waves(std::size_t count, const double* __restrict real,
+                                              const double* __restrict imaginary, double product,
+                                              double square, double* __restrict product_real,
+                                              double* __restrict product_imaginary,
+                                              double* __restrict square_real,
+                                              double* __restrict square_imaginary) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const double re = real[k], im = imaginary[k];
+    product_real[k] += product * re;
+    product_imaginary[k] += product * im;
+    square_real[k] += square * (re * re - im * im);
+    square_imaginary[k] += square * (2.0 * re * im);
+  }
+}
+
+/// Sums over values of waves of a row of wavelengths: of either shift, real and imaginary parts
+/// apart, as registers hold them.
+struct PlaneSums {
+  explicit PlaneSums(std::size_t count)
+      : real(count), imaginary(count), of(kSums, std::vector<double>(count)) {}
+  enum Sum : std::size_t { kProductReal, kProductImaginary, kSquareReal, kSquareImaginary };
+  static constexpr std::size_t kSums = 8;  // those of a shift, then of the other
+  [[nodiscard]] std::complex<double> sum(std::size_t along, Sum real_part, std::size_t k) const {
+    return {of[4 * along + real_part][k], of[4 * along + real_part + 1][k]};
+  }
+  /// Adds a value, with the waves as they are at it.
+  void add(double nx, double ny, double um) {
+    const std::array<double, 4> factor{nx * um, ny * um, nx * nx, ny * ny};
+    in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
+      for (const std::size_t along : {0U, 1U})
+        add_waves(real.size(), real.data(), imaginary.data(), factor[along], factor[along + 2],
+                  of[4 * along].data(), of[4 * along + 1].data(), of[4 * along + 2].data(),
+                  of[4 * along + 3].data());
+    });
+  }
+  std::vector<double> real, imaginary;  ///< of the waves at a value
+  std::vector<std::vector<double>> of;
+};
+
 /// Gains of waves over a coordinate, of either shift, from a number of waves over the width on.
 std::array<std::vector<PlaneGain>, 2> plane_gains(const PlaneValues& values, int by,
                                                   double width_mm, double first, double step,
                                                   std::size_t count) {
-  std::array<std::vector<std::complex<double>>, 2> products, squares;
+  PlaneSums sums(count);
   std::array<double, 2> normals{};
-  for (int along : {0, 1}) {
-    products[static_cast<std::size_t>(along)].resize(count);
-    squares[static_cast<std::size_t>(along)].resize(count);
-  }
   for (std::size_t i = 0; i < values.um.size(); ++i) {
     const double angle = kTwoPi * values.at_mm[static_cast<std::size_t>(by)][i] / width_mm;
     const std::complex<double> turn = std::polar(1.0, step * angle);
     std::complex<double> wave = std::polar(1.0, first * angle);
-    const double nx = values.normal[0][i], ny = values.normal[1][i], um = values.um[i];
+    const double nx = values.normal[0][i], ny = values.normal[1][i];
     normals[0] += nx * nx;
     normals[1] += ny * ny;
     for (std::size_t k = 0; k < count; ++k) {
-      const double real = wave.real(), imaginary = wave.imag();
-      const std::complex<double> twice(real * real - imaginary * imaginary, 2.0 * real * imaginary);
-      products[0][k] += nx * um * wave;
-      products[1][k] += ny * um * wave;
-      squares[0][k] += nx * nx * twice;
-      squares[1][k] += ny * ny * twice;
+      const double real = sums.real[k] = wave.real(), imaginary = sums.imaginary[k] = wave.imag();
       wave = {real * turn.real() - imaginary * turn.imag(),
               real * turn.imag() + imaginary * turn.real()};
     }
+    sums.add(nx, ny, values.um[i]);
   }
   std::array<std::vector<PlaneGain>, 2> found;
   for (const std::size_t along : {0U, 1U})
     for (std::size_t k = 0; k < count; ++k)
-      found[along].push_back(gain_of(products[along][k], squares[along][k], normals[along]));
+      found[along].push_back(gain_of(sums.sum(along, PlaneSums::kProductReal, k),
+                                     sums.sum(along, PlaneSums::kSquareReal, k), normals[along]));
   return found;
 }
 
