@@ -103,9 +103,13 @@ bool has_memory_of(const DriveContext& context, double over) {
   constexpr double kFewestFollow = 0.8, kLeastChange = 0.02;  // of the whole variance
   const BenchTable& table = context.table;
   double follow = 0.0, change = 0.0, mean = 0.0, square = 0.0;
+  // (one row of a log without it, and no row after it has a mean)
+  if (std::ranges::any_of(table.every_row(), [&](const BenchPoint& p) {
+        return std::isnan(remembered_quantity(p, over));
+      }))
+    return false;
   for (const BenchPoint& p : table.points) {
     const double x = remembered_quantity(p, over);
-    if (std::isnan(x)) return false;
     mean += x;
     square += x * x;
     const BenchPoint* before = table.row_before(p);
