@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <random>
@@ -146,6 +147,35 @@ class TableMaker {
     }
   }
 
+  /// Few rows of a file without a temperature have it from the rows beside them, evenly in between:
+  /// else the whole bench would be one without.
+  void fill_temperatures() {
+    constexpr double kMost = 0.05;  // of the rows of a file
+    std::vector<BenchPoint>& points = table_.points;
+    for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
+      std::vector<std::size_t> known;
+      for (end = begin; end < points.size() && points[end].file == points[begin].file; ++end)
+        if (!std::isnan(points[end].temperature_c)) known.push_back(end);
+      const std::size_t missing = end - begin - known.size();
+      if (missing == 0 || static_cast<double>(missing) > kMost * static_cast<double>(end - begin))
+        continue;
+      for (std::size_t i = begin; i < end; ++i) {
+        if (!std::isnan(points[i].temperature_c)) continue;
+        const auto after = std::lower_bound(known.begin(), known.end(), i);
+        const std::size_t to = after == known.end() ? known.back() : *after,
+                          from = after == known.begin() ? to : *std::prev(after);
+        const double share =
+            to > from ? static_cast<double>(i - from) / static_cast<double>(to - from) : 0.0;
+        points[i].temperature_c =
+            points[from].temperature_c +
+            std::min(share, 1.0) * (points[to].temperature_c - points[from].temperature_c);
+      }
+      table_.notes.push_back(data_.files[static_cast<std::size_t>(points[begin].file)] + ": " +
+                             std::to_string(missing) + (missing == 1 ? " row has" : " rows have") +
+                             " no temperature: it is taken from the rows beside");
+    }
+  }
+
   void take_points() {
     double before = kNaN, turns = 0.0;
     int file = -1;
@@ -172,6 +202,7 @@ class TableMaker {
       }
       table_.points.push_back(p);
     }
+    fill_temperatures();
     std::map<int, std::pair<double, double>> seen;  // file: rows so far, rows
     for (const BenchPoint& p : table_.points) seen[p.file].second += 1.0;
     for (BenchPoint& p : table_.points) {

@@ -244,6 +244,33 @@ TEST(BenchTable, ARowBeforeIsTheOneThatWasTakenBeforeThoughAnotherWasLeftOut) {
   EXPECT_EQ(without, 2);  // the first one, and the one after the slip
 }
 
+TEST(BenchTable, FewRowsWithoutATemperatureHaveItFromTheRowsBeside) {
+  DrawnBench bench = any_rows(5, false, 100);
+  bench.any_warmth();
+  loop::BenchData data = bench.data([](const DrawnRow&) { return 0.0; });
+  const double before = data.rows[40].temperature_c, after = data.rows[43].temperature_c;
+  for (const std::size_t row : {std::size_t{0}, std::size_t{41}, std::size_t{42}})
+    data.rows[row].temperature_c = std::nan("");
+  const auto table = loop::make_bench_table(bench.model(), data);
+  ASSERT_TRUE(table);
+  ASSERT_EQ(table->outliers, 0);
+  EXPECT_TRUE(table->has_temperature);
+  EXPECT_EQ(table->points[0].temperature_c, data.rows[1].temperature_c);
+  EXPECT_NEAR(table->points[41].temperature_c, before + (after - before) / 3.0, 1e-9);
+  EXPECT_NEAR(table->points[42].temperature_c, before + (after - before) / 1.5, 1e-9);
+  EXPECT_THAT(table->notes, testing::Contains(HasSubstr("3 rows have no temperature")));
+}
+
+TEST(BenchTable, ManyRowsWithoutATemperatureLeaveTheBenchWithoutOne) {
+  DrawnBench bench = any_rows(6, false, 100);
+  bench.any_warmth();
+  loop::BenchData data = bench.data([](const DrawnRow&) { return 0.0; });
+  for (std::size_t row = 0; row < 20; ++row) data.rows[4 * row].temperature_c = std::nan("");
+  const auto table = loop::make_bench_table(bench.model(), data);
+  ASSERT_TRUE(table);
+  EXPECT_FALSE(table->has_temperature);
+}
+
 TEST(BenchTable, ARowThatWasTakenOutOfATableStillFindsTheRowBefore) {
   DrawnBench bench = any_rows(4, true);
   const auto table =
