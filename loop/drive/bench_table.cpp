@@ -166,9 +166,8 @@ class TableMaker {
                           from = after == known.begin() ? to : *std::prev(after);
         const double share =
             to > from ? static_cast<double>(i - from) / static_cast<double>(to - from) : 0.0;
-        points[i].temperature_c =
-            points[from].temperature_c +
-            std::min(share, 1.0) * (points[to].temperature_c - points[from].temperature_c);
+        points[i].temperature_c = points[from].temperature_c +
+                                  share * (points[to].temperature_c - points[from].temperature_c);
       }
       table_.notes.push_back(data_.files[static_cast<std::size_t>(points[begin].file)] + ": " +
                              std::to_string(missing) + (missing == 1 ? " row has" : " rows have") +

@@ -228,10 +228,10 @@ class DriveSelection {
   /// Waves of one direction, or of a part of the range, of which the spectra of parts tell.
   void add_waves_of_parts(const std::vector<DriveEffect>& base,
                           std::vector<WholeForm>& forms) const;
-  /// Of this order the likeliest wave that grows with the square of the speed, and the likeliest
-  /// that is largest at a speed.
-  [[nodiscard]] std::vector<DriveEffect> waves_by_speed(const std::vector<DriveEffect>& base,
-                                                        double order) const;
+  /// Of this order the likeliest wave that grows with the square of the speed, the likeliest that
+  /// is largest at a speed, and the likeliest whose phase goes with the speed or the load.
+  [[nodiscard]] std::vector<DriveEffect> waves_by_speed_or_load(
+      const std::vector<DriveEffect>& base, double order) const;
   void add_waves_over_the_angle(const std::vector<DriveEffect>& base,
                                 std::vector<WholeForm>& forms) const;
   /// Of places that leave the same of the rows seen those that are locked away say which it is: on

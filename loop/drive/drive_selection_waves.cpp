@@ -93,7 +93,7 @@ void DriveSelection::tell_waves(DriveOutcome& outcome) {
       most = gain;
       best = std::move(shape);
     }
-    std::vector<DriveEffect> waves = waves_by_speed(base.effects, order);
+    std::vector<DriveEffect> waves = waves_by_speed_or_load(base.effects, order);
     for (const auto& [kind, likely] : likeliest) waves.push_back({&wave_family(), likely.second});
     OneForm best = now;
     double noise = now.square / std::max(1.0, outcome.rows - now.size);
@@ -116,8 +116,8 @@ void DriveSelection::tell_waves(DriveOutcome& outcome) {
   }
 }
 
-std::vector<DriveEffect> DriveSelection::waves_by_speed(const std::vector<DriveEffect>& base,
-                                                        double order) const {
+std::vector<DriveEffect> DriveSelection::waves_by_speed_or_load(
+    const std::vector<DriveEffect>& base, double order) const {
   constexpr int kSpeeds = 12;
   constexpr double kFewestSpeeds = 6.0;
   const bool many_speeds = table_.levels[1] >= kFewestSpeeds && table_.least_speed_rpm > 0.0;
@@ -250,7 +250,7 @@ void DriveSelection::add_waves_of_parts(const std::vector<DriveEffect>& base,
   constexpr std::size_t kMostOrders = 3;
   if (orders.size() > kMostOrders) orders.resize(kMostOrders);
   for (const double order : orders)
-    for (const DriveEffect& wave : waves_by_speed(base, order))
+    for (const DriveEffect& wave : waves_by_speed_or_load(base, order))
       forms.push_back({wave, beside.with(wave).gain,
                        cost_of_looks(10 * table_.points.size()) + wave.family->dearer});
 }

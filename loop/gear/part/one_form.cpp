@@ -18,7 +18,7 @@
 #include "trueflank/loop/gear/part/forms_around.h"
 #include "trueflank/loop/gear/part/forms_of_teeth.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
-#include "trueflank/loop/gear/part/names_beside_forms.h"
+#include "trueflank/loop/gear/part/names/names_beside_forms.h"
 #include "trueflank/loop/gear/part/one_flank.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/products.h"

@@ -21,7 +21,7 @@
 #include "trueflank/loop/gear/effects/simple_courses.h"
 #include "trueflank/loop/gear/local/likeliest_products.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
-#include "trueflank/loop/gear/part/names_beside_forms.h"
+#include "trueflank/loop/gear/part/names/names_beside_forms.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/runs_along.h"

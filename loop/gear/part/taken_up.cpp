@@ -20,7 +20,7 @@
 #include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/choice.h"
 #include "trueflank/loop/gear/part/drifts.h"
-#include "trueflank/loop/gear/part/names_beside_forms.h"
+#include "trueflank/loop/gear/part/names/names_beside_forms.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/waves.h"
 #include "trueflank/loop/gear/possible_effects.h"

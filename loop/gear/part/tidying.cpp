@@ -13,7 +13,7 @@
 #include "trueflank/loop/gear/finite_displacement.h"
 #include "trueflank/loop/gear/fit/trial_fit.h"
 #include "trueflank/loop/gear/paired_sums.h"
-#include "trueflank/loop/gear/part/names.h"
+#include "trueflank/loop/gear/part/names/names.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/parts_of_forms.h"

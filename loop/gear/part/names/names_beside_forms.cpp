@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Names that stand beside forms without one: what shows them by themselves.
-#include "trueflank/loop/gear/part/names_beside_forms.h"
+#include "trueflank/loop/gear/part/names/names_beside_forms.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Names that the answer shows as it is in the end, though the forms beside them changed on the way.
-#include "trueflank/loop/gear/part/settled_names.h"
+#include "trueflank/loop/gear/part/names/settled_names.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 #include "trueflank/loop/gear/fit/flank_courses.h"
 #include "trueflank/loop/gear/fit/flank_fields.h"
-#include "trueflank/loop/gear/part/names.h"
-#include "trueflank/loop/gear/part/names_beside_forms.h"
+#include "trueflank/loop/gear/part/names/names.h"
+#include "trueflank/loop/gear/part/names/names_beside_forms.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/runs_along.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sets of names along the profile or the face: the likeliest is told, those as likely beside it.
-#include "trueflank/loop/gear/part/settled_names.h"
+#include "trueflank/loop/gear/part/names/settled_names.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "trueflank/loop/gear/part/forms_to_try.h"
-#include "trueflank/loop/gear/part/names_beside_forms.h"
+#include "trueflank/loop/gear/part/names/names_beside_forms.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/runs_along.h"
 #include "trueflank/loop/gear/possible_effects.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Straight slopes beside waves along the same direction, which were told as what is bent.
-#include "trueflank/loop/gear/part/slopes_beside_waves.h"
+#include "trueflank/loop/gear/part/names/slopes_beside_waves.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "trueflank/loop/gear/part/forms_to_try.h"
-#include "trueflank/loop/gear/part/names_beside_forms.h"
+#include "trueflank/loop/gear/part/names/names_beside_forms.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/runs_along.h"
 #include "trueflank/loop/gear/possible_effects.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Names of all teeth: those that the choice passed over, and the usual ones of those that say the
 // same.
-#include "trueflank/loop/gear/part/names.h"
+#include "trueflank/loop/gear/part/names/names.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "trueflank/loop/discovery/distributions.h"
-#include "trueflank/loop/gear/part/names_beside_forms.h"
+#include "trueflank/loop/gear/part/names/names_beside_forms.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/runs_along.h"
 #include "trueflank/loop/gear/possible_effects.h"
