@@ -9,6 +9,7 @@
 #include <map>
 #include <numeric>
 #include <random>
+#include <set>
 #include <tuple>
 
 #include "trueflank/base/number_text.h"
@@ -108,6 +109,7 @@ class TableMaker {
     if (Errors errors = judge_units(model_, data_, swapped); !errors.empty())
       return fail_all(std::move(errors));
     undo(swapped);
+    leave_out_repeated_rows();
     take_points();
     if (table_.points.size() < kFewestRows)
       return fail_all({{.code = ErrorCode::kOutOfRange,
@@ -145,6 +147,45 @@ class TableMaker {
           "forward and backward are interchanged: as labelled, every row gains the power that the drive "
           "should lose";
     }
+  }
+
+  /// A row that stands twice to the last digit is one measurement, where the torques are read so
+  /// finely that no two rows share one by chance.
+  void leave_out_repeated_rows() {
+    constexpr double kFine = 0.98;  // of the rows have a torque of their own
+    std::map<std::array<double, 6>, const BenchRow*> first;
+    std::set<std::pair<bool, double>> torques;
+    std::vector<BenchRow> once;
+    std::map<int, std::pair<int, std::string>> repeated;  // by file: how many, an example
+    for (const BenchRow& row : data_.rows) {
+      const auto known = [](double value) { return std::isnan(value) ? -1e300 : value; };
+      const auto [at, is_new] =
+          first.try_emplace({row.forward ? 1.0 : 0.0, row.speed_rpm, row.input_nm, row.output_nm,
+                             known(row.temperature_c), known(row.angle_deg)},
+                            &row);
+      if (is_new) {
+        torques.emplace(row.forward, row.forward ? row.output_nm : row.input_nm);
+        once.push_back(row);
+        continue;
+      }
+      auto& [rows, example] = repeated[row.file];
+      if (rows++ == 0)
+        example = "line " + std::to_string(row.line) + " is line " +
+                  std::to_string(at->second->line) +
+                  (at->second->file == row.file
+                       ? ""
+                       : " of " + data_.files[static_cast<std::size_t>(at->second->file)]) +
+                  " again";
+    }
+    if (repeated.empty() ||
+        static_cast<double>(torques.size()) < kFine * static_cast<double>(once.size()))
+      return;
+    for (const auto& [file, rows] : repeated)
+      table_.notes.push_back(data_.files[static_cast<std::size_t>(file)] + ": " +
+                             std::to_string(rows.first) +
+                             (rows.first == 1 ? " row stands" : " rows stand") +
+                             " twice to the last digit, and count once (" + rows.second + ")");
+    data_.rows = std::move(once);
   }
 
   /// Few rows of a file without a temperature have it from the rows beside them, evenly in between:

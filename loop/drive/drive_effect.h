@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -210,11 +211,16 @@ struct DriveFamily : EffectFacts {
   bool comes_again_over_the_angle = false;
   /// Comes and goes over the run in waves that a scan finds.
   bool comes_again_over_the_run = false;
+  /// Starts at rows of the run that a scan finds, and dies away.
+  bool starts_in_run = false;
   /// The shapes by which it may be what a spectrum shows at an order; empty: none.
   std::function<std::vector<DriveShape>(const DriveContext&, double order)> shapes_at_order = {};
   /// Waves of an order whose phase goes with the load or the speed; empty: it is none of these.
   std::function<std::vector<DriveShape>(const DriveContext&, double order, double direction)>
       late_waves_at_order = {};
+  /// Waves of an order that lie otherwise in one of several files; empty: it is none of these.
+  std::function<std::vector<DriveShape>(const DriveContext&, double order, double direction)>
+      turned_waves_at_order = {};
   /// The shape of a slow course of the run, a polynomial, that a scan proposes; empty: it takes none.
   std::function<DriveShape(double what, int degree)> shape_of_wander = {};
   /// @}
@@ -284,6 +290,14 @@ struct DriveEffect {
 
 /// The library: loss effects, sensor effects, free form. Lives as long as the program.
 [[nodiscard]] const std::vector<DriveFamily>& drive_library();
+/// The first effect of the library that has something.
+template <class Member>
+[[nodiscard]] const DriveFamily* family_with(Member DriveFamily::*something) {
+  const auto& library = drive_library();
+  return &*std::find_if(library.begin(), library.end(), [&](const DriveFamily& family) {
+    return static_cast<bool>(family.*something);
+  });
+}
 [[nodiscard]] const DriveFamily* find_drive_family(const std::string& id);
 /// Every candidate that this bench's columns can carry.
 [[nodiscard]] std::vector<DriveEffect> drive_candidates(const DriveContext& context);

@@ -388,8 +388,10 @@ void refine_drive_shapes(const DriveContext& context, const Eigen::VectorXd& val
               context, value, DriveFit(context, value, effects, rows), e, rows, rows);
         continue;
       }
-      for (std::size_t k = 0; k < effects[e].shape.size(); ++k) {
-        const DriveShapeValue& value_of_shape = effects[e].family->shape_values[k];
+      // (rows of the run may follow the values that are known)
+      const std::vector<DriveShapeValue>& values = effects[e].family->shape_values;
+      for (std::size_t k = 0; k < std::min(effects[e].shape.size(), values.size()); ++k) {
+        const DriveShapeValue& value_of_shape = values[k];
         if (!value_of_shape.continuous) continue;
         const double here = effects[e].shape[k];
         const DriveFit begun(context, value, effects, rows);

@@ -14,15 +14,6 @@
 namespace trueflank::loop {
 namespace {
 
-/// The first effect of the library that has something.
-template <class Member>
-const DriveFamily* family_with(Member DriveFamily::*something) {
-  const auto& library = drive_library();
-  return &*std::find_if(library.begin(), library.end(), [&](const DriveFamily& family) {
-    return static_cast<bool>(family.*something);
-  });
-}
-
 constexpr double kFar = 2e-4;  // of a friction, a scale, a share of the load
 
 bool far_of(const std::map<std::size_t, double>& one, const std::map<std::size_t, double>& other) {
@@ -83,6 +74,7 @@ DriveOutcome DriveSelection::choose() {
   banned_.assign(candidates_.size(), false);
   ban([&](const DriveEffect& e) { return !may_be_there(*e.family); });
   DriveOutcome outcome = settle();
+  take_what_few_rows_show(outcome);
   for (int courses = 0; courses < 3; ++courses) {
     const bool spell = propose_spell(outcome), rest = propose_rest(outcome);
     if (!propose_wander(outcome) && !spell && !rest) break;
@@ -101,6 +93,7 @@ DriveOutcome DriveSelection::choose() {
   tell_as_one_place_of_a_turn(outcome);
   follow_the_run(outcome);
   tell_as_whole_forms(outcome);
+  tell_as_first_rows(outcome);
   let_held_out_rows_settle_kin(outcome);
   prefer_plainer_names(outcome);
   drop_what_is_nothing(outcome);

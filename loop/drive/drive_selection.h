@@ -183,6 +183,10 @@ class DriveSelection {
   /// Of every kind the form over a quantity that takes most off beside these effects.
   [[nodiscard]] std::vector<DriveEffect> likeliest_forms(const std::vector<DriveEffect>& base,
                                                          double over) const;
+  /// Of few rows a name that is as good as certain by a normal law. True where one was taken.
+  bool take_what_few_rows_show(DriveOutcome& outcome);
+  /// A name of the whole run and a jump that takes it back, told as a loss of the first rows.
+  void tell_as_first_rows(DriveOutcome& outcome);
   /// A wave over the angle may be in proportion to the load, grow over the run, or come by the
   /// clock: told so where that leaves surely less than it and the waves beside it.
   void tell_waves(DriveOutcome& outcome);
@@ -196,6 +200,8 @@ class DriveSelection {
   /// A loss that comes and goes over the run in waves: with the load or the speed, or of a period
   /// that changes.
   void tell_as_waves_of_the_run(DriveOutcome& outcome);
+  /// A loss that starts at rows of the run and dies away.
+  void tell_as_starts(DriveOutcome& outcome);
   /// Losses that nearly every bench has and that hold what is the same everywhere of others.
   [[nodiscard]] std::vector<DriveEffect> plain_losses() const;
   [[nodiscard]] std::vector<DriveEffect> with_plain_losses(std::vector<DriveEffect> effects) const;

@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "trueflank/base/units.h"
+#include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/drive/drive_selection.h"
 #include "trueflank/loop/drive/forms_of_rows/forms_of_rows.h"
 #include "trueflank/loop/drive/one_form.h"
 #include "trueflank/loop/drive/place_profile.h"
+#include "trueflank/loop/drive/wave_spectrum.h"
 
 // What comes again and again, over the angle or over the run, told as one form: a scan finds where,
 // as its shapes are too many to try.
@@ -113,6 +115,9 @@ struct ScannedWaves {
 constexpr std::array<double, 3> kWaveSizes{double(forms::kDrag), double(forms::kFlanks),
                                            forms::kRwBySpeed};
 
+/// Even waves of so many periods at most, of so many rows each at least, are told elsewhere.
+constexpr double kMostEvenTimes = 24.0, kRowsOfEven = 6.0;
+
 ScannedWaves scan_waves(const DriveContext& context, const Eigen::VectorXd& left) {
   constexpr double kFewestTimes = 2.25, kMostTimes = 40.0, kRowsEach = 7.0, kStep = 0.3,
                    kMostStretch = 1.9, kFinestStretch = 0.04, kCoarsest = 0.3;
@@ -157,6 +162,54 @@ ScannedWaves scan_waves(const DriveContext& context, const Eigen::VectorXd& left
         if (k != 0) best.shape.push_back(stretch);
       }
     }
+  }
+  return found;
+}
+
+/// The likeliest even waves with fewer rows to a period, or more periods, than the others have: of
+/// a controller that hunts, or of what is faster than the rows. `plain` alone. Only a line that
+/// stands far above those beside it is a wave: errors that hang together fill many.
+ScannedWaves scan_quick_waves(const DriveContext& context, const Eigen::VectorXd& left) {
+  constexpr double kStep = 0.3, kRowsEach = 2.1, kAboveBeside = 25.0, kMostLines = 2e5;
+  constexpr int kBeside = 60, kApart = 8;  // lines
+  ScannedWaves found;
+  const double rows = static_cast<double>(context.table.points.size()),
+               first = std::min(kMostEvenTimes, rows / kRowsOfEven);
+  const int lines =
+      static_cast<int>(std::min(kMostLines, std::floor((rows / kRowsEach - first) / kStep)));
+  if (lines < 2 * kBeside) return found;
+  for (std::size_t of = 0; of < kWaveSizes.size(); ++of) {
+    const SeenRows seen = seen_rows(context, left, kWaveSizes[of]);
+    std::vector<double> angle, product, square;
+    double weights = 0.0;
+    for (std::size_t i = 0; i < seen.row.size(); ++i) {
+      angle.push_back(kTwoPi * (forms::share_of_run(context.table, *seen.row[i]) - 0.5));
+      product.push_back(seen.column[i] * seen.left[i]);
+      square.push_back(seen.column[i] * seen.column[i]);
+      weights += square.back();
+    }
+    const auto of_left = line_sums(angle, product, first, kStep, lines),
+               of_squares = line_sums(angle, square, 2.0 * first, 2.0 * kStep, lines);
+    std::vector<double> gain;
+    for (std::size_t k = 0; k < of_left.size(); ++k) {
+      const double cc = 0.5 * (weights + of_squares[k].real()), ss = weights - cc,
+                   cs = 0.5 * of_squares[k].imag(), determinant = cc * ss - cs * cs,
+                   c = of_left[k].real(), s = of_left[k].imag();
+      gain.push_back(determinant > 1e-3 * weights * weights
+                         ? (c * c * ss - 2.0 * c * s * cs + s * s * cc) / determinant
+                         : 0.0);
+    }
+    const auto highest =
+        static_cast<int>(std::max_element(gain.begin(), gain.end()) - gain.begin());
+    std::vector<double> beside;
+    for (int k = std::max(0, highest - kBeside); k <= std::min(lines - 1, highest + kBeside); ++k)
+      if (std::abs(k - highest) > kApart) beside.push_back(gain[static_cast<std::size_t>(k)]);
+    const auto at = static_cast<std::size_t>(highest);
+    found.looks += lines;
+    if (gain[at] < kAboveBeside * nth_smallest(beside, beside.size() / 2)) continue;
+    found.plain[of] = {gain[at],
+                       {first + kStep * highest, std::arg(of_left[at]) / kTwoPi, kWaveSizes[of],
+                        double(forms::kRwToEitherSide)}};
   }
   return found;
 }
@@ -324,34 +377,36 @@ void DriveSelection::tell_as_waves_of_the_run(DriveOutcome& outcome) {
   const DriveContext here = context();
   const Eigen::VectorXd left =
       value_ - DriveFit(here, value_, full, FitRows::kTraining).explained_nm();
-  const ScannedWaves scan = scan_waves(here, left);
+  const ScannedWaves slow = scan_waves(here, left), quick = scan_quick_waves(here, left);
+  const double looks = slow.looks + quick.looks;
   constexpr double kLeastGain = 0.1;
   const double square = BesideEffects(here, value_, full, FitRows::kTraining).square();
+  std::vector<Scanned> waves(quick.plain.begin(), quick.plain.end());
+  waves.insert(waves.end(), slow.changing.begin(), slow.changing.end());
+  // (a slow even wave of one period and size is told elsewhere)
+  waves.insert(waves.end(), slow.plain.begin() + 1, slow.plain.end());
   std::vector<PricedForm> found;
-  for (const bool changes : {false, true})
-    for (std::size_t of = 0; of < kWaveSizes.size(); ++of) {
-      const Scanned& wave = changes ? scan.changing[of] : scan.plain[of];
-      // (an even wave of one period is told elsewhere)
-      if (wave.gain < kLeastGain * square || (!changes && of == 0)) continue;
-      const DriveFamily& family = family_that(&DriveFamily::comes_again_over_the_run, changes);
-      std::vector<DriveEffect> effects = full;
-      effects.push_back({&family, wave.shape});
-      refine_drive_shapes(here, value_, FitRows::kTraining, effects);
-      for (const bool from_nothing : {false, true})
-        for (const double half : {0.0, 0.5}) {
-          if (!from_nothing && half > 0.0) continue;
-          DriveEffect form = effects.back();
-          form.shape[forms::kRwFrom] =
-              from_nothing ? double(forms::kRwFromNothing) : double(forms::kRwToEitherSide);
-          form.shape[forms::kRwPhase] += half;
-          OneForm set = base;
-          set.effects.push_back(form);
-          set.from.push_back(-1);
-          found.push_back(
-              {std::move(set), 0.0,
-               cost_of_looks(static_cast<std::size_t>(4.0 * scan.looks)) + family.dearer});
-        }
-    }
+  for (const Scanned& wave : waves) {
+    if (wave.gain < kLeastGain * square) continue;
+    const bool changes = wave.shape.size() > forms::kRwStretch;
+    const DriveFamily& family = family_that(&DriveFamily::comes_again_over_the_run, changes);
+    std::vector<DriveEffect> effects = full;
+    effects.push_back({&family, wave.shape});
+    refine_drive_shapes(here, value_, FitRows::kTraining, effects);
+    for (const bool from_nothing : {false, true})
+      for (const double half : {0.0, 0.5}) {
+        if (!from_nothing && half > 0.0) continue;
+        DriveEffect form = effects.back();
+        form.shape[forms::kRwFrom] =
+            from_nothing ? double(forms::kRwFromNothing) : double(forms::kRwToEitherSide);
+        form.shape[forms::kRwPhase] += half;
+        OneForm set = base;
+        set.effects.push_back(form);
+        set.from.push_back(-1);
+        found.push_back({std::move(set), 0.0,
+                         cost_of_looks(static_cast<std::size_t>(4.0 * looks)) + family.dearer});
+      }
+  }
   if (!found.empty()) tell_if_clearly(outcome, found);
 }
 

@@ -29,6 +29,27 @@ const DriveFamily& wave_family() {
   return *at;
 }
 
+/// Orders that the spectra of single files show: what lies otherwise in each may be nothing in all.
+std::vector<double> orders_of_files(const DriveContext& context, const Eigen::VectorXd& left) {
+  constexpr double kSure = 1e-4, kFewestRows = 24.0;
+  constexpr int kMostFiles = 5;
+  std::vector<double> orders;
+  const int files = 1 + context.table.points.back().file;
+  for (int file = 0; file < files && files > 1 && files <= kMostFiles; ++file) {
+    BenchTable own = without_rows(context.table);
+    std::vector<Eigen::Index> rows;
+    for (std::size_t i = 0; i < context.table.points.size(); ++i) {
+      if (context.table.points[i].file != file) continue;
+      own.points.push_back(context.table.points[i]);
+      rows.push_back(static_cast<Eigen::Index>(i));
+    }
+    if (static_cast<double>(rows.size()) < kFewestRows) continue;
+    const LikeliestOrder line = WaveSpectra().likeliest_order(own, left(rows));
+    if (line.p_value < kSure) orders.push_back(line.order);
+  }
+  return orders;
+}
+
 /// Waves of these orders per turn, or of so many to the run, of any phase.
 std::vector<DriveShape> waves_about(const BenchTable& table, double order) {
   constexpr int kPhases = 16, kApart = 8;
@@ -126,7 +147,9 @@ std::vector<DriveEffect> DriveSelection::waves_by_speed_or_load(
     return *std::find_if(drive_library().begin(), drive_library().end(), is_it);
   };
   const DriveFamily &resonant = family_with([](const auto&f) { return f.is_resonant_wave; }),
-                    &late = family_with([](const auto&f) { return bool(f.late_waves_at_order); });
+                    &late = family_with([](const auto&f) { return bool(f.late_waves_at_order); }),
+                    &turned =
+                        family_with([](const auto&f) { return bool(f.turned_waves_at_order); });
   if (!may_be_there(resonant)) return {};
   const Eigen::VectorXd left =
       value_ - DriveFit(here, value_, base, FitRows::kTraining).explained_nm();
@@ -195,8 +218,10 @@ std::vector<DriveEffect> DriveSelection::waves_by_speed_or_load(
     for (const Waves& waves :
          {likeliest_of(wave_family(), squares), likeliest_of(resonant, resonances)})
       if (waves.gain > kClearlyMore * of_even) best.push_back(waves);
-    const Waves later = likeliest_of(late, late.late_waves_at_order(here, order, direction));
-    if (later.gain > of_even + kSurelyMore * (square - later.gain) / rows) best.push_back(later);
+    for (const Waves& moved :
+         {likeliest_of(late, late.late_waves_at_order(here, order, direction)),
+          likeliest_of(turned, turned.turned_waves_at_order(here, order, direction))})
+      if (moved.gain > of_even + kSurelyMore * (square - moved.gain) / rows) best.push_back(moved);
   }
   std::vector<DriveEffect> waves;
   for (const Waves& wave : best) {
@@ -249,6 +274,11 @@ void DriveSelection::add_waves_of_parts(const std::vector<DriveEffect>& base,
   // Of these orders also those whose size goes with the speed otherwise.
   constexpr std::size_t kMostOrders = 3;
   if (orders.size() > kMostOrders) orders.resize(kMostOrders);
+  for (const double order : orders_of_files(here, value_ - fit.explained_nm()))
+    if (std::none_of(orders.begin(), orders.end(), [&](double known) {
+          return std::abs(known - order) < 0.5 / std::max(1.0, table_.turns);
+        }))
+      orders.push_back(order);
   for (const double order : orders)
     for (const DriveEffect& wave : waves_by_speed_or_load(base, order))
       forms.push_back({wave, beside.with(wave).gain,

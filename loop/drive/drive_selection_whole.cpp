@@ -117,6 +117,7 @@ void DriveSelection::tell_as_whole_forms(DriveOutcome& outcome) {
   tell_as_waves_of_the_run(outcome);
   tell_as_scattered_states(outcome);
   tell_as_levels_of_the_run(outcome);
+  tell_as_starts(outcome);
 }
 
 DriveSelection::OneForm DriveSelection::as_it_is(const DriveOutcome& outcome) const {

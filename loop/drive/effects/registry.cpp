@@ -110,6 +110,10 @@ const std::vector<DriveFamily>& drive_library() {
         unnamed_first_rows(),
         unnamed_left_behind(),
         unnamed_late_wave(),
+        unnamed_turned_wave(),
+        unnamed_starts(),
+        unnamed_one_direction(),
+        unnamed_fading_one_direction(),
         unnamed_memory(),
         unnamed_reading_memory(),
     };

@@ -66,6 +66,8 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_bend();
 [[nodiscard]] DriveFamily unnamed_reading_of_load();
 [[nodiscard]] DriveFamily unnamed_reading_by_direction();
+[[nodiscard]] DriveFamily unnamed_one_direction();
+[[nodiscard]] DriveFamily unnamed_fading_one_direction();
 [[nodiscard]] DriveFamily unnamed_reading_power();
 [[nodiscard]] DriveFamily unnamed_reading_near_zero();
 [[nodiscard]] DriveFamily unnamed_gain_slope();
@@ -118,6 +120,8 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_first_rows();
 [[nodiscard]] DriveFamily unnamed_left_behind();
 [[nodiscard]] DriveFamily unnamed_late_wave();
+[[nodiscard]] DriveFamily unnamed_turned_wave();
+[[nodiscard]] DriveFamily unnamed_starts();
 [[nodiscard]] DriveFamily unnamed_memory();
 [[nodiscard]] DriveFamily unnamed_reading_memory();
 /// @}

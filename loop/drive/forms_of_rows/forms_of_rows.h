@@ -38,6 +38,8 @@ enum RunWaveFrom { kRwToEitherSide, kRwFromNothing };
 [[nodiscard]] double periods_of_run(double share, double times, double stretch);
 /// Row of a point, 0 ... 1 over the rows of the log.
 [[nodiscard]] double share_of_run(const BenchTable& table, const BenchPoint& p);
+/// What starts at rows of the run, in growing order, and dies away within so many rows.
+enum StartsValue : std::size_t { kStartsOf, kStartsRows, kFirstStart };
 /// Change of the driven torque [N m] for 1 N m at the input, at the largest load or speed.
 [[nodiscard]] double run_wave_nm(const DriveContext& context, const BenchPoint& p, double of);
 

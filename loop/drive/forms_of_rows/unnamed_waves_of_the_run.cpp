@@ -74,9 +74,12 @@ std::string run_wave_told(const DriveContext& context, const DriveShape& s, doub
                                ? "from nothing to " + with_interval(figures[0], " N m") +
                                      (amount > 0.0 ? " more" : " less")
                                : with_interval(figures[0], " N m") + " to either side";
+  constexpr double kQuick = 12.0;  // rows to a period
+  const bool quick = s.size() <= kRwStretch && rows_to_a_period(context.table, s, false) < kQuick;
   return "a loss at the input" + with + " that comes and goes over the run, " + every + ": " +
          size + at + ", most first at line " + std::to_string(line_of_most(context, s, amount)) +
-         " (a room that warms and cools, a pump or a fan that comes and goes?)";
+         (quick ? " (a controller that hunts, or what is faster than the rows: hum of the mains?)"
+                : " (a room that warms and cools, a pump or a fan that comes and goes?)");
 }
 
 std::vector<DriveShape> run_waves_about(const DriveContext& context, const DriveShape* about) {

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/drive/drive_selection.h"
+#include "trueflank/loop/drive/effects/columns.h"
+#include "trueflank/loop/drive/one_form.h"
+
+// What few rows show: a name in a bench of few rows, and a loss that the first rows alone have.
+namespace trueflank::loop {
+namespace {
+
+/// Sums of what an effect moves and of what is left, row by row.
+struct FewRows {
+  double square = 0.0, product = 0.0, left = 0.0, rows = 0.0;
+  void add(double x, double y, double times) {
+    square += times * x * x;
+    product += times * x * y;
+    left += times * y * y;
+    rows += times;
+  }
+  /// That as much is taken off by chance, of independent normal errors.
+  [[nodiscard]] double p_value() const {
+    if (!(square > 0.0) || rows < 4.0) return 1.0;
+    const double taken = product * product / square, below = left - taken;
+    return below > 0.0 ? f_tail(taken * (rows - 1.0) / below, 1.0, rows - 1.0) : 1.0;
+  }
+};
+
+/// The rows that an effect says most about are left out one after the other: the p-values with all,
+/// without one and without two.
+std::vector<double> p_values_without_the_most(const DriveContext& context,
+                                              const Eigen::VectorXd& value,
+                                              const DriveEffect& effect) {
+  std::vector<std::pair<double, double>> rows;
+  FewRows all;
+  for (std::size_t i = 0; i < context.table.points.size(); ++i) {
+    const BenchPoint& p = context.table.points[i];
+    if (p.fold == 0) continue;
+    double column = 0.0;
+    effect.family->evaluate(context, p, effect.shape, &column);
+    const double x = column / p.sigma_nm, y = value[static_cast<Eigen::Index>(i)] / p.sigma_nm;
+    rows.emplace_back(x, y);
+    all.add(x, y, 1.0);
+  }
+  const double sign = all.product < 0.0 ? -1.0 : 1.0;
+  std::sort(rows.begin(), rows.end(), [sign](const auto& a, const auto& b) {
+    return sign * a.first * a.second > sign * b.first * b.second;
+  });
+  std::vector<double> p_values{all.p_value()};
+  for (std::size_t k = 0; k < 2 && k < rows.size(); ++k) {
+    all.add(rows[k].first, rows[k].second, -1.0);
+    p_values.push_back(all.p_value());
+  }
+  return p_values;
+}
+
+}  // namespace
+
+/// The engine flips the signs of rows, of which an effect that few rows show has too few: by a
+/// normal law it may be as good as certain. It must be so without the rows that speak for it most.
+bool DriveSelection::take_what_few_rows_show(DriveOutcome& outcome) {
+  constexpr double kFewRows = 64.0, kSure = 1e-5;
+  constexpr std::array<double, 2> kSureWithout{1e-3, 1e-2};  // one row, two rows
+  if (!outcome.effects.empty() || outcome.rows > kFewRows) return false;
+  std::set<const DriveFamily*> families;
+  OneForm best;
+  double least = kSure;
+  for (std::size_t g = 0; g < candidates_.size(); ++g) {
+    const DriveEffect& c = candidates_[g];
+    if (banned_[g] || !c.family->named || c.columns() != 1 || !may_be_there(*c.family)) continue;
+    families.insert(c.family);
+    const std::vector<double> p = p_values_without_the_most(context(), value_, c);
+    if (!(p[0] < least) || !(p[1] < kSureWithout[0]) || !(p[2] < kSureWithout[1])) continue;
+    OneForm set;
+    set.effects = {c};
+    set.from = {-1};
+    if (!fits(set)) continue;
+    least = p[0];
+    best = std::move(set);
+  }
+  const double asked = static_cast<double>(families.size());
+  if (best.effects.empty() || !(asked * least < kSure)) return false;
+  return exchange_unless_denied(outcome, best, -2.0 * std::log(asked * least));
+}
+
+/// A name of the whole run and a jump that takes it back are one loss of the rows before the jump.
+void DriveSelection::tell_as_first_rows(DriveOutcome& outcome) {
+  constexpr double kAsWell = 6.6, kReads = 9.0;  // chi-square: of the figure that is less
+  const DriveFamily* host = family_with(&DriveFamily::shape_of_spell);
+  for (std::size_t jump = 0; jump < outcome.effects.size(); ++jump) {
+    const DriveFamily& family = *outcome.effects[jump].family;
+    if (!family.jumps_in_run) continue;
+    const double length = 0.5 * (outcome.effects[jump].shape[1] + 1.0);
+    for (std::size_t name = 0; name < outcome.effects.size(); ++name) {
+      const DriveFamily& whole = *outcome.effects[name].family;
+      if (!whole.named || outcome.effects[name].columns() != 1 ||
+          !outcome.effects[name].shape.empty() || whole.drifts || whole.follows_the_run)
+        continue;
+      OneForm now = as_it_is(outcome);
+      const double noise = now.square / std::max(1.0, outcome.rows - now.size);
+      OneForm best;
+      for (const double what :
+           {drive_effects::kDrag, drive_effects::kFlanks, drive_effects::kOutputReads}) {
+        OneForm set;
+        for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
+          if (e == jump || e == name) continue;
+          set.effects.push_back(outcome.effects[e]);
+          set.from.push_back(static_cast<int>(e));
+        }
+        set.effects.push_back({host, host->shape_of_spell(what, 0.0, 0.0, length)});
+        set.from.push_back(-1);
+        // (a loss that was no reading: only both directions tell them apart)
+        const double surely = what == double(drive_effects::kOutputReads) ? kReads * noise : 0.0;
+        if (fits(set) && set.square + surely < best.square) best = std::move(set);
+      }
+      if (best.effects.empty() || best.square - now.square > kAsWell * noise) continue;
+      exchange_effects(outcome, best, false);
+      return;
+    }
+  }
+}
+
+}  // namespace trueflank::loop
