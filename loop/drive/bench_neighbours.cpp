@@ -51,6 +51,15 @@ class Neighbours {
     if (!sizes.empty())
       if (const double most = kMostOfMiddleSize * median(sizes); most > 0.0)
         for (double& s : size_) s = std::clamp(s, -most, most);
+    hangs_ = rows_that_hang_together();
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (i == 0 || points[i].file != points[i - 1].file ||
+          (visit_[i] != visit_[i - 1] && i - block_begin_ >= static_cast<std::size_t>(hangs_))) {
+        block_begin_ = i;
+        block_.push_back(block_.empty() ? 0 : block_.back() + 1);
+      } else {
+        block_.push_back(block_.back());
+      }
     record(orders);
   }
 
@@ -90,6 +99,32 @@ class Neighbours {
   }
 
  private:
+  /// Rows after which what is left of one says nothing of the other any more: where what rows that
+  /// far apart share, and twice as far, is next to nothing.
+  [[nodiscard]] std::ptrdiff_t rows_that_hang_together() const {
+    constexpr double kNothing = 0.05, kByChance = 1.5;
+    constexpr std::size_t kFewestBlocks = 12;
+    const auto& points = table_.points;
+    const std::size_t n = size_.size(), most = n / kFewestBlocks;
+    double square = 0.0;
+    for (const double s : size_) square += s * s;
+    const auto shared = [&](std::size_t lag) {
+      double product = 0.0;
+      for (std::size_t i = lag; i < n; ++i)
+        if (points[i].file == points[i - lag].file) product += size_[i] * size_[i - lag];
+      return product / square;
+    };
+    if (!(square > 0.0)) return 1;
+    for (std::size_t apart = 1; apart < most; ++apart) {
+      double mean = 0.0;
+      for (std::size_t lag = apart; lag <= 2 * apart; ++lag)
+        mean += shared(lag) / static_cast<double>(apart + 1);
+      if (mean < std::max(kNothing, kByChance / std::sqrt(static_cast<double>(n * (apart + 1)))))
+        return static_cast<std::ptrdiff_t>(apart);
+    }
+    return static_cast<std::ptrdiff_t>(std::max<std::size_t>(1, most));
+  }
+
   void record(const std::vector<double>& orders) {
     const auto& points = table_.points;
     add_ranked("the speed", values_of(points, &BenchPoint::speed_rpm));
@@ -147,7 +182,8 @@ class Neighbours {
     return visit_[i] == visit_[j] ||
            (points[i].reading >= 0 && points[i].reading == points[j].reading) ||
            (points[i].file == points[j].file &&
-            std::abs(static_cast<std::ptrdiff_t>(i) - static_cast<std::ptrdiff_t>(j)) < kTooSoon);
+            std::abs(static_cast<std::ptrdiff_t>(i) - static_cast<std::ptrdiff_t>(j)) <
+                std::max(kTooSoon, hangs_));
   }
 
   [[nodiscard]] double apart(const std::vector<std::size_t>& over, std::size_t i,
@@ -185,19 +221,20 @@ class Neighbours {
     return near;
   }
 
-  /// Of the sum of products of pairs, were every visit's sign by chance (errors of its rows may
-  /// hang together): by its spread, and its skewness of three rows that are all near each other.
+  /// Of the sum of products of pairs, were the sign of every visit, or of so many rows as hang
+  /// together, by chance: by its spread, and its skewness of three rows that are all near each
+  /// other.
   [[nodiscard]] double p_value_of(const NearRows& near) const {
     double sum = 0.0, square = 0.0, cube = 0.0;
     std::vector<std::vector<std::size_t>> of_row(size_.size());
-    std::map<std::pair<int, int>, double> of_visits;
+    std::map<std::pair<int, int>, double> of_blocks;
     for (const auto& [i, j] : near.pairs) {
       const double product = size_[i] * size_[j];
       sum += product;
-      of_visits[{visit_[i], visit_[j]}] += product;
+      of_blocks[{block_[i], block_[j]}] += product;
       of_row[i].push_back(j);
     }
-    for (const auto& [visits, product] : of_visits) square += product * product;
+    for (const auto& [blocks, product] : of_blocks) square += product * product;
     for (const auto& [i, j] : near.pairs)
       for (const std::size_t k : of_row[j])
         if (std::binary_search(of_row[i].begin(), of_row[i].end(), k))
@@ -303,6 +340,9 @@ class Neighbours {
   const Eigen::VectorXd& left_;
   std::vector<int> set_point_, visit_;
   std::vector<double> size_;  ///< of every row, in its noise's units
+  std::ptrdiff_t hangs_ = 1;  ///< rows whose errors hang together
+  std::vector<int> block_;    ///< of every row: a visit, or so many rows
+  std::size_t block_begin_ = 0;
   std::vector<RecordedCourse> courses_;
 };
 

@@ -244,6 +244,29 @@ class Asking {
     }
   }
 
+  /// Mean square of the half waves beside the slow ones; of errors that hang together these fall
+  /// off, and the slow ones are as much larger by chance.
+  [[nodiscard]] static double beside_slow(const Eigen::VectorXd& size, int first, int last) {
+    constexpr double kLeastShared = 0.25, kByChance = 3.0;
+    // (of errors of which each row keeps a part of the one before: a power of how far the nearer
+    // half waves stand above the others)
+    constexpr double kPower = 1.2;
+    const int middle = first + (last - first) / 3;
+    double near = 0.0, far = 0.0;
+    for (int k = first; k <= last; ++k)
+      (k < middle ? near : far) += std::pow(on_half_wave(size, k), 2);
+    const double beside = (near + far) / (last - first + 1);
+    Eigen::VectorXd fast = size;
+    take_slow(fast, 2 * kSlowWaves);
+    const Eigen::Index n = fast.size();
+    const double shared = fast.head(n - 1).dot(fast.tail(n - 1)) / fast.squaredNorm();
+    if (middle == first || !(far > 0.0) ||
+        !(shared > std::max(kLeastShared, kByChance / std::sqrt(static_cast<double>(n)))))
+      return beside;
+    return beside *
+           std::pow(std::max(1.0, near / (middle - first) / (far / (last - middle + 1))), kPower);
+  }
+
   /// The slowest half waves over the run against those beside them, of what set points do not
   /// explain: of what is left, or of that in proportion to the load, as friction changes.
   [[nodiscard]] double slow_p_value(bool opposite, bool with_load) const {
@@ -263,9 +286,8 @@ class Asking {
     constexpr Eigen::Index kLongRun = 96;
     const int first = 2 * kSlowWaves + 1;
     const int last = std::min<int>(first + 23, static_cast<int>(size_.size()) / 2);
-    double slow = 0.0, beside = 0.0, p_value = 1.0;
-    for (int k = first; k <= last; ++k)
-      beside += std::pow(on_half_wave(size, k), 2) / (last - first + 1);
+    double slow = 0.0, p_value = 1.0;
+    const double beside = beside_slow(size, first, last);
     if (!(beside > 0.0)) return 1.0;
     for (int k = 1; k <= 2 * kSlowWaves; ++k) {
       slow += std::pow(on_half_wave(size, k), 2);

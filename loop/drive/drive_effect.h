@@ -211,6 +211,8 @@ struct DriveFamily : EffectFacts {
   bool comes_again_over_the_angle = false;
   /// Comes and goes over the run in waves that a scan finds.
   bool comes_again_over_the_run = false;
+  /// Reads no more than so much of the output's torque.
+  bool is_cap = false;
   /// Starts at rows of the run that a scan finds, and dies away.
   bool starts_in_run = false;
   /// The shapes by which it may be what a spectrum shows at an order; empty: none.

@@ -94,6 +94,7 @@ DriveOutcome DriveSelection::choose() {
   follow_the_run(outcome);
   tell_as_whole_forms(outcome);
   tell_as_first_rows(outcome);
+  tell_as_cap(outcome);
   let_held_out_rows_settle_kin(outcome);
   prefer_plainer_names(outcome);
   drop_what_is_nothing(outcome);

@@ -187,6 +187,8 @@ class DriveSelection {
   bool take_what_few_rows_show(DriveOutcome& outcome);
   /// A name of the whole run and a jump that takes it back, told as a loss of the first rows.
   void tell_as_first_rows(DriveOutcome& outcome);
+  /// What begins at a load, told as a reading that goes no further.
+  void tell_as_cap(DriveOutcome& outcome);
   /// A wave over the angle may be in proportion to the load, grow over the run, or come by the
   /// clock: told so where that leaves surely less than it and the waves beside it.
   void tell_waves(DriveOutcome& outcome);

@@ -10,6 +10,7 @@
 #include "trueflank/loop/drive/drive_selection.h"
 #include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/one_form.h"
+#include "trueflank/loop/drive/place_profile.h"
 
 // What few rows show: a name in a bench of few rows, and a loss that the first rows alone have.
 namespace trueflank::loop {
@@ -124,6 +125,45 @@ void DriveSelection::tell_as_first_rows(DriveOutcome& outcome) {
       return;
     }
   }
+}
+
+/// A reading that stands still from a torque on is a loss that begins there only by chance: where
+/// it leaves as little, it takes the place of what has no name.
+void DriveSelection::tell_as_cap(DriveOutcome& outcome) {
+  constexpr double kAsWell = 4.0;  // chi-square
+  const bool begins_at_a_load =
+      std::any_of(outcome.effects.begin(), outcome.effects.end(), [](const DriveEffect& e) {
+        return !e.family->named && e.family->over && e.family->over(e.shape) == 0.0;
+      });
+  if (!begins_at_a_load) return;
+  const DriveFamily& cap = *family_with(&DriveFamily::is_cap);
+  const OneForm now = as_it_is(outcome);
+  const double noise = now.square / std::max(1.0, outcome.rows - now.size);
+  const DriveContext here = context();
+  OneForm best;
+  for (const bool with_names : {true, false}) {
+    OneForm set;
+    for (std::size_t e = 0; e < outcome.effects.size() && with_names; ++e) {
+      if (!outcome.effects[e].family->named) continue;
+      set.effects.push_back(outcome.effects[e]);
+      set.from.push_back(static_cast<int>(e));
+    }
+    const BesideEffects beside(here, value_, set.effects, FitRows::kTraining);
+    DriveEffect likeliest{&cap, {}};
+    double most = 0.0;
+    for (DriveShape& shape : cap.whole_shapes(here))
+      if (const double gain = beside.with({&cap, shape}).gain; gain > most) {
+        most = gain;
+        likeliest.shape = std::move(shape);
+      }
+    if (!(most > 0.0)) continue;
+    set.effects.push_back(nearest_best(here, beside, nearest_best(here, beside, likeliest)));
+    set.from.push_back(-1);
+    if (fits(set) && set.figure(noise) < best.figure(noise)) best = std::move(set);
+  }
+  if (best.effects.empty() || best.size > now.size || best.square - now.square > kAsWell * noise)
+    return;
+  (void)exchange_unless_denied(outcome, best, 0.0);
 }
 
 }  // namespace trueflank::loop

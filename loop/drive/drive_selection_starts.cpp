@@ -72,6 +72,7 @@ void DriveSelection::tell_as_starts(DriveOutcome& outcome) {
       (gains_power() && !losses_beside_gains_))
     return;
   const DriveFamily& family = *family_with(&DriveFamily::starts_in_run);
+  const OneForm now = as_it_is(outcome);
   const OneForm base = names_beside_what_comes_again(outcome);
   const DriveContext here = context();
   const std::size_t rows = static_cast<std::size_t>(table_.every_row().back().row) + 1;
@@ -112,8 +113,12 @@ void DriveSelection::tell_as_starts(DriveOutcome& outcome) {
       effects.push_back({&family, best.shape});
       refine_drive_shapes(here, value_, FitRows::kTraining, effects);
       const BesideEffects others(here, value_, beside, FitRows::kTraining);
+      effects.back() = nearest_best(here, others, effects.back());
+      // (what stands still at levels is no start)
+      if (DriveFit(here, value_, effects, FitRows::kTraining).residual_square() > now.square)
+        continue;
       OneForm set = base;
-      set.effects.push_back(nearest_best(here, others, effects.back()));
+      set.effects.push_back(effects.back());
       set.from.push_back(-1);
       found.push_back({std::move(set), 0.0,
                        starts * cost_of_looks(4 * rows) +

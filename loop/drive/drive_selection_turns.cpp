@@ -79,13 +79,12 @@ void DriveSelection::tell_as_one_place_of_a_turn(DriveOutcome& outcome) {
     double most = 0.0;
     for (const double which : drive_effects::directions_alone(here))
       for (const double half : {0.01, 0.02, 0.04, 0.08, 0.15})
-        for (double centre = 0.0; centre < 1.0; centre += 0.5 * half) {
-          const DriveShape shape{*turn, centre, half, which};
-          if (const double gain = beside.with({&*bump, shape}).gain; gain > most) {
-            most = gain;
-            best = shape;
-          }
-        }
+        for (double centre = 0.0; centre < 1.0; centre += 0.5 * half)
+          for (DriveShape& shape : bump->kin_shapes({*turn, centre, half, which, 0.0}))
+            if (const double gain = beside.with({&*bump, shape}).gain; gain > most) {
+              most = gain;
+              best = std::move(shape);
+            }
     if (most > 0.0) {
       OneForm set = base;
       set.effects.push_back({&*bump, best});

@@ -66,6 +66,9 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_bend();
 [[nodiscard]] DriveFamily unnamed_reading_of_load();
 [[nodiscard]] DriveFamily unnamed_reading_by_direction();
+[[nodiscard]] DriveFamily unnamed_viscous_slope();
+[[nodiscard]] DriveFamily unnamed_growth();
+[[nodiscard]] DriveFamily unnamed_cap();
 [[nodiscard]] DriveFamily unnamed_one_direction();
 [[nodiscard]] DriveFamily unnamed_fading_one_direction();
 [[nodiscard]] DriveFamily unnamed_reading_power();

@@ -14,7 +14,13 @@ namespace trueflank::loop::drive_effects {
 
 namespace {
 
-enum BumpValue : std::size_t { kBumpOrder, kBumpCentre, kBumpHalf, kBumpDirection };
+enum BumpValue : std::size_t {
+  kBumpOrder,
+  kBumpCentre,
+  kBumpHalf,
+  kBumpDirection,
+  kBumpWithLoad  ///< as large at every load (0), or in proportion to it
+};
 
 /// Turns of the drive's members, and places that come several times in a turn of the input.
 std::vector<double> bump_orders(const DriveContext& context) {
@@ -40,7 +46,8 @@ std::vector<double> bump_orders(const DriveContext& context) {
 DriveFamily unnamed_bump() {
   DriveFamily f = without_a_name();
   f.parameters = {"amount_nm"};
-  f.shape_names = {"order", "centre", "half_width", "which_direction"};  // the two in turns
+  // (the centre and the half width in turns)
+  f.shape_names = {"order", "centre", "half_width", "which_direction", "with_load"};
   f.preference = 8;
   f.stands_alone = true;
   f.dearer = kDearerForms;
@@ -48,6 +55,7 @@ DriveFamily unnamed_bump() {
       {},
       {.continuous = true, .is_place = true, .reach = 0.03},
       {.continuous = true, .limits = [](const DriveContext&) { return std::pair(0.004, 0.2); }},
+      {},
       {}};
   // Waves and parts of a turn that were found say where to look.
   f.shapes = no_shapes;
@@ -61,8 +69,14 @@ DriveFamily unnamed_bump() {
       for (const double half : {0.015, 0.03, 0.06, 0.12})
         for (double centre = 0.0; centre < 1.0; centre += 0.6 * half)
           for (const double which : directions_alone(context))
-            shapes.push_back({order, centre, half, which});
+            shapes.push_back({order, centre, half, which, 0.0});
     return shapes;
+  };
+  f.kin_shapes = [](const DriveShape& s) {
+    DriveShape even = s, with_load = s;
+    even[kBumpWithLoad] = 0.0;
+    with_load[kBumpWithLoad] = 1.0;
+    return std::vector<DriveShape>{even, with_load};
   };
   f.all_shapes = [](const DriveContext& context, const DriveShape* about) {
     std::vector<DriveShape> shapes;
@@ -70,7 +84,8 @@ DriveFamily unnamed_bump() {
     for (const double by : growing_steps(context, 0.01, 1.0))
       for (const double wider : growing_steps(context, 0.02, 0.7))
         shapes.push_back({(*about)[kBumpOrder], (*about)[kBumpCentre] + by * (*about)[kBumpHalf],
-                          (*about)[kBumpHalf] * std::exp(wider), (*about)[kBumpDirection]});
+                          (*about)[kBumpHalf] * std::exp(wider), (*about)[kBumpDirection],
+                          (*about)[kBumpWithLoad]});
     return shapes;
   };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
@@ -78,7 +93,10 @@ DriveFamily unnamed_bump() {
     double off = place_of_spell(p, s[kBumpOrder]) - s[kBumpCentre];
     off -= std::round(off);
     const double x = off / s[kBumpHalf];
-    c[0] = x * x < 40.0 ? std::exp2(-x * x) * in_direction(context, p, s[kBumpDirection]) : 0.0;
+    c[0] = x * x < 40.0
+               ? std::exp2(-x * x) * in_direction(context, p, s[kBumpDirection]) *
+                     (s[kBumpWithLoad] != 0.0 ? p.load_nm / context.table.most_load_nm : 1.0)
+               : 0.0;
   };
   f.figures = [](const DriveContext&, const DriveShape& s, double amount) {
     return std::vector<Parameter>{figure_of("order", s[kBumpOrder]),
@@ -97,9 +115,10 @@ DriveFamily unnamed_bump() {
                                      : "";
     return "a short loss once in every turn " + turn_in_words(context.model, s[kBumpOrder]) +
            of_input + ": " + with_interval(figures[3], " N m") +
-           (amount > 0.0 ? " more" : " less") + direction_in_words(s[kBumpDirection]) + " at " +
-           with_interval(figures[1], " degrees") + " of it, half of that " +
-           with_interval(figures[2], " degrees") + " to either side" +
+           (amount > 0.0 ? " more" : " less") +
+           (s[kBumpWithLoad] != 0.0 ? " at the largest load, in proportion to the load," : "") +
+           direction_in_words(s[kBumpDirection]) + " at " + with_interval(figures[1], " degrees") +
+           " of it, half of that " + with_interval(figures[2], " degrees") + " to either side" +
            (s[kBumpDirection] == 0.0 ? "" : ", and nothing in the other direction") +
            " (a chip, a damaged tooth, a tight place?)";
   };

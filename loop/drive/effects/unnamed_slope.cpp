@@ -141,6 +141,44 @@ DriveFamily unnamed_flanks_slope() {
   return f;
 }
 
+DriveFamily unnamed_viscous_slope() {
+  DriveFamily f = slope();
+  f.holds_a_constant = false;
+  f.shapes = no_shapes;
+  f.all_shapes = [](const DriveContext& context, const DriveShape* about) {
+    return about != nullptr ? slopes_about(context, *about) : slopes_over({2.0}, context);
+  };
+  f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
+                  double* c) {
+    c[0] = -context.lever(p) * p.speed_rpm / context.table.most_speed_rpm *
+           along(s, context.share_of_range(p, s[kSlopeOver]));
+  };
+  f.figures = [](const DriveContext& context, const DriveShape& s, double amount) {
+    return std::vector<Parameter>{
+        figure_of("amplitude_nm", std::abs(amount * (along(s, 1.0) - along(s, 0.0)))),
+        figure_of("nothing_at_" + key_of_quantity(s[kSlopeOver]),
+                  context.quantity_at_share(s[kSlopeOver], s[kSlopeFrom]))};
+  };
+  f.told = [](const DriveContext& context, const DriveShape& s, double amount,
+              const std::vector<Parameter>& figures) {
+    return "a loss at the input in proportion to the speed that " +
+           std::string(amount > 0.0 ? "grows" : "falls") + " evenly " + the_more(s) + ": " +
+           with_interval(figures[0], amount > 0.0 ? " N m more" : " N m less") +
+           " at the largest speed at " + at_end(context, s, true) + " than at " +
+           at_end(context, s, false) + ", nothing at " +
+           with_interval(figures[1], unit_alone(s[kSlopeOver])) +
+           (amount > 0.0 ? " (a preload that grows with the heat?)" : " (a lubricant that thins?)");
+  };
+  f.words = [](const DriveModel&, const DriveShape& s, const DriveContext*) {
+    return std::string("in proportion to the speed, that changes evenly with the ") +
+           name_of_quantity(s[kSlopeOver]);
+  };
+  f.term_shapes = [](const DriveShape&) {
+    return std::vector<DriveShape>{{0.0, 1.0, 1.0, 0.0, 0.0}};
+  };
+  return f;
+}
+
 DriveFamily unnamed_reading_slope() {
   DriveFamily f = slope();
   f.is_loss = false;
