@@ -431,18 +431,24 @@ class TableMaker {
 
 }  // namespace
 
-PowerGained power_gained(const std::vector<BenchPoint>& points, double ratio,
-                         const std::vector<double>& taken_off_nm) {
+namespace {
+
+/// The same of loads as one side says them: `by_driven` as what comes out.
+PowerGained gained_by(const std::vector<BenchPoint>& points, double ratio,
+                      const std::vector<double>& taken_off_nm, bool by_driven) {
   struct Cell {
     double excess = 0.0, taken = 0.0, count = 0.0;
     std::map<int, std::pair<double, int>> units;
   };
+  const auto load_nm = [&](const BenchPoint& p) {
+    return !by_driven ? p.load_nm : p.forward ? p.driven_nm / ratio : p.driven_nm;
+  };
   double most_load_nm = 0.0;
-  for (const BenchPoint& p : points) most_load_nm = std::max(most_load_nm, p.load_nm);
+  for (const BenchPoint& p : points) most_load_nm = std::max(most_load_nm, load_nm(p));
   std::map<std::tuple<bool, int, int>, Cell> cells;  // direction, load, file
   for (std::size_t i = 0; i < points.size(); ++i) {
     const BenchPoint& p = points[i];
-    const int sixth = std::min(5, static_cast<int>(6.0 * p.load_nm / most_load_nm));
+    const int sixth = std::min(5, static_cast<int>(6.0 * load_nm(p) / most_load_nm));
     Cell& cell = cells[{p.forward, sixth, p.file}];
     const double lossless = p.forward ? ratio * p.driving_nm : p.driving_nm / ratio;
     const double excess = p.driven_nm - lossless - (taken_off_nm.empty() ? 0.0 : taken_off_nm[i]);
@@ -482,6 +488,16 @@ PowerGained power_gained(const std::vector<BenchPoint>& points, double ratio,
     gained.file = std::get<2>(key);
   }
   return gained;
+}
+
+}  // namespace
+
+PowerGained power_gained(const std::vector<BenchPoint>& points, double ratio,
+                         const std::vector<double>& taken_off_nm) {
+  // Of rows with little on one side that side may only read too little, or lose less than others:
+  // who gains power does so in the order of either side.
+  if (gained_by(points, ratio, taken_off_nm, true).file < 0) return {};
+  return gained_by(points, ratio, taken_off_nm, false);
 }
 
 bool BenchTable::has(bool forward) const {

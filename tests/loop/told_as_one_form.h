@@ -24,6 +24,22 @@ inline bool leaves_noise(const ClosedBench& closed, const DrawnBench& bench) {
                        kOfNoise * (bench.noise_output_nm + bench.noise_input_nm * bench.ratio);
 }
 
+/// Rows of the bench as days: so many files of equal length.
+inline loop::BenchData as_days(loop::BenchData data, int days) {
+  data.files.clear();
+  for (int day = 0; day < days; ++day)
+    data.files.push_back("day" + std::to_string(day + 1) + ".csv");
+  const std::size_t rows = data.rows.size();
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < rows; ++i) {
+    const auto file = static_cast<int>(i * static_cast<std::size_t>(days) / rows);
+    if (i > 0 && file != data.rows[i - 1].file) first = i;
+    data.rows[i].file = file;
+    data.rows[i].line = static_cast<int>(i - first) + 2;
+  }
+  return data;
+}
+
 using FormDraw = std::function<void(Answers&, std::uint64_t)>;
 inline void expect_all(std::uint64_t first, int draws, const FormDraw& draw) {
   Answers answers;
