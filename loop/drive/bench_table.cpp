@@ -9,7 +9,6 @@
 #include <map>
 #include <numeric>
 #include <random>
-#include <set>
 #include <tuple>
 
 #include "trueflank/base/number_text.h"
@@ -149,25 +148,32 @@ class TableMaker {
     }
   }
 
-  /// A row that stands twice to the last digit is one measurement, where the torques are read so
-  /// finely that no two rows share one by chance.
+  /// A row that stands twice to the last digit is one measurement; but of coarse readings, of which
+  /// rows that differ in one torque alone are about as many, rows are alike by chance.
   void leave_out_repeated_rows() {
-    constexpr double kFine = 0.98;  // of the rows have a torque of their own
-    std::map<std::array<double, 6>, const BenchRow*> first;
-    std::set<std::pair<bool, double>> torques;
+    constexpr double kByChance = 0.1;  // of the rows that stand twice
+    using Key = std::array<double, 6>;
+    const auto known = [](double value) { return std::isnan(value) ? -1e300 : value; };
+    constexpr std::size_t kInput = 2, kOutput = 3;
+    std::map<Key, const BenchRow*> first;
+    std::array<std::map<Key, double>, 2> without;  // of an input, of an output
     std::vector<BenchRow> once;
     std::map<int, std::pair<int, std::string>> repeated;  // by file: how many, an example
+    double alike = 0.0, nearly = 0.0;
     for (const BenchRow& row : data_.rows) {
-      const auto known = [](double value) { return std::isnan(value) ? -1e300 : value; };
-      const auto [at, is_new] =
-          first.try_emplace({row.forward ? 1.0 : 0.0, row.speed_rpm, row.input_nm, row.output_nm,
-                             known(row.temperature_c), known(row.angle_deg)},
-                            &row);
+      Key key{row.forward ? 1.0 : 0.0,  row.speed_rpm,       row.input_nm, row.output_nm,
+              known(row.temperature_c), known(row.angle_deg)};
+      const auto [at, is_new] = first.try_emplace(key, &row);
       if (is_new) {
-        torques.emplace(row.forward, row.forward ? row.output_nm : row.input_nm);
         once.push_back(row);
+        for (const std::size_t torque : {kInput, kOutput}) {
+          Key other = key;
+          other[torque] = 0.0;
+          if (++without[torque - kInput][other] > 1.0) nearly += 1.0;
+        }
         continue;
       }
+      alike += 1.0;
       auto& [rows, example] = repeated[row.file];
       if (rows++ == 0)
         example = "line " + std::to_string(row.line) + " is line " +
@@ -177,9 +183,7 @@ class TableMaker {
                        : " of " + data_.files[static_cast<std::size_t>(at->second->file)]) +
                   " again";
     }
-    if (repeated.empty() ||
-        static_cast<double>(torques.size()) < kFine * static_cast<double>(once.size()))
-      return;
+    if (repeated.empty() || nearly > kByChance * alike) return;
     for (const auto& [file, rows] : repeated)
       table_.notes.push_back(data_.files[static_cast<std::size_t>(file)] + ": " +
                              std::to_string(rows.first) +
