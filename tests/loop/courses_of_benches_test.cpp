@@ -188,6 +188,18 @@ TEST(CoursesOfBenches, FirstRowsWithMoreLossAreNoDragOfTheWholeRun) {
   });
 }
 
+TEST(CoursesOfBenches, AFileInPoundFeetIsSaidToBe) {
+  expect_all(11450, 2, [](Answers& answers, std::uint64_t seed) {
+    DrawnBench bench = any_rows(seed, false, 160);
+    loop::BenchData data = as_days(bench.data([](const DrawnRow&) { return 0.0; }), 2);
+    for (loop::BenchRow& row : data.rows)
+      if (row.file == 1) row.output_nm *= 0.737562;
+    const auto closed = loop::close_drive_loop(bench.model(), data);
+    answers.add(seed, "day2 in pound-feet", closed,
+                says(closed, "in day2.csv") && says(closed, "was it written in pound-feet?"));
+  });
+}
+
 TEST(FewRowsOnBenches, ALossThatFewFastRowsShowIsTold) {
   expect_all(11500, 4, [](Answers& answers, std::uint64_t seed) {
     DrawnBench bench = any_rows(seed, false, 26);

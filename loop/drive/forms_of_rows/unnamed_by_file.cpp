@@ -71,6 +71,20 @@ std::string name_of_file(const BenchTable& table, double number) {
   return file < table.files.size() ? table.files[file] : std::to_string(file + 1);
 }
 
+/// Where the output's torque of one file is as much less or more as another unit makes it.
+std::string unit_in_words(const DriveContext& context, double of, double amount) {
+  constexpr double kPoundFeet = 0.737562, kNear = 0.01;
+  if (of != double(kFlanks) && of != double(kOutputGain)) return "";
+  const double factor =
+      1.0 + (of == double(kFlanks) ? -amount : amount) / context.table.most_load_nm;
+  if (std::abs(factor - kPoundFeet) < kNear)
+    return "; its output torque is 0.738 of what it should be: was it written in pound-feet?";
+  if (std::abs(factor * kPoundFeet - 1.0) < kNear)
+    return "; its output torque is 1.356 of what it should be: was it turned from pound-feet into "
+           "newton metres twice?";
+  return "";
+}
+
 std::string file_told(const DriveContext& context, const DriveShape& s, double amount,
                       const std::vector<Parameter>& figures) {
   constexpr double kMostlyItsOwn = 0.4;
@@ -82,6 +96,7 @@ std::string file_told(const DriveContext& context, const DriveShape& s, double a
          same_sign(context, s[kFileOf]) +
          (one_way ? ", or the torque of the driven side is read so: one direction does not tell"
                   : "") +
+         unit_in_words(context, s[kFileOf], amount) +
          (file_stands_out(table, static_cast<int>(s[kFileNumber])) < kMostlyItsOwn
               ? "; the files were run at other loads, speeds or directions, so it is hard to tell "
                 "from what follows these: run some set points of one file in the other, too"
