@@ -204,6 +204,9 @@ class DriveSelection {
   void tell_as_waves_of_the_run(DriveOutcome& outcome);
   /// A loss that starts at rows of the run and dies away.
   void tell_as_starts(DriveOutcome& outcome);
+  /// Starts that do nearly as well of the rows seen, and of all rows surely better. The last effect
+  /// has them.
+  void let_held_out_rows_settle_starts(std::vector<DriveEffect>& effects) const;
   /// Losses that nearly every bench has and that hold what is the same everywhere of others.
   [[nodiscard]] std::vector<DriveEffect> plain_losses() const;
   [[nodiscard]] std::vector<DriveEffect> with_plain_losses(std::vector<DriveEffect> effects) const;

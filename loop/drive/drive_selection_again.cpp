@@ -260,7 +260,7 @@ DriveSelection::OneForm DriveSelection::names_beside_what_comes_again(
 }
 
 bool DriveSelection::tell_if_clearly(DriveOutcome& outcome, const std::vector<PricedForm>& found) {
-  constexpr double kClearly = 20.0, kAsOne = 4.0, kMostLeft = 0.85;
+  constexpr double kClearly = 20.0, kInstead = 9.0, kAsOne = 4.0, kMostLeft = 0.85;
   const OneForm now = as_it_is(outcome);
   const std::vector<DriveEffect> plain = plain_losses();
   std::vector<PricedForm> sets;
@@ -314,11 +314,19 @@ bool DriveSelection::tell_if_clearly(DriveOutcome& outcome, const std::vector<Pr
   const bool fewer =
       best->set.effects.size() < outcome.effects.size() ||
       (best->set.size < now.size && best->set.effects.size() <= outcome.effects.size());
-  if (!fewer && best->set.square > kMostLeft * now.square) return false;
+  // (what has no name gives way to another of no more figures)
+  const bool instead =
+      best->set.size <= now.size && best->set.effects.size() <= outcome.effects.size() &&
+      std::none_of(outcome.effects.begin(), outcome.effects.end(), [&](const DriveEffect& e) {
+        const auto at = static_cast<int>(&e - outcome.effects.data());
+        return e.family->named &&
+               std::find(best->set.from.begin(), best->set.from.end(), at) == best->set.from.end();
+      });
+  if (!fewer && !instead && best->set.square > kMostLeft * now.square) return false;
   // (errors that hang together come and go as well)
   const double gain = now.figure(noise) - least -
                       (1.0 - 1.0 / shared) * std::max(0.0, now.square - best->set.square) / noise;
-  if (gain < (fewer ? kAsOne : kClearly)) return false;
+  if (gain < (fewer ? kAsOne : instead ? kInstead : kClearly)) return false;
   return exchange_unless_denied(outcome, best->set, gain);
 }
 

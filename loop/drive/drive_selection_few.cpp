@@ -61,6 +61,21 @@ std::vector<double> p_values_without_the_most(const DriveContext& context,
   return p_values;
 }
 
+/// Half way between rows that follow each other, of the few about a place of the run (-1 ... 1).
+std::vector<double> ends_about(const std::vector<BenchPoint>& points, double place) {
+  constexpr std::ptrdiff_t kAbout = 3;
+  std::ptrdiff_t at = 0;
+  while (at + 1 < static_cast<std::ptrdiff_t>(points.size()) &&
+         2.0 * points[static_cast<std::size_t>(at) + 1].taken - 1.0 < place)
+    ++at;
+  std::vector<double> ends;
+  for (std::ptrdiff_t row = at - kAbout; row <= at + kAbout; ++row)
+    if (row >= 0 && row + 1 < static_cast<std::ptrdiff_t>(points.size()))
+      ends.push_back(0.5 * (points[static_cast<std::size_t>(row)].taken +
+                            points[static_cast<std::size_t>(row) + 1].taken));
+  return ends;
+}
+
 }  // namespace
 
 /// The engine flips the signs of rows, of which an effect that few rows show has too few: by a
@@ -92,12 +107,13 @@ bool DriveSelection::take_what_few_rows_show(DriveOutcome& outcome) {
 
 /// A name of the whole run and a jump that takes it back are one loss of the rows before the jump.
 void DriveSelection::tell_as_first_rows(DriveOutcome& outcome) {
-  constexpr double kAsWell = 6.6, kReads = 9.0;  // chi-square: of the figure that is less
+  // (chi-square: of the figure that is less, and of two that take each other back by chance)
+  constexpr double kAsWell = 12.0, kReads = 9.0;
   const DriveFamily* host = family_with(&DriveFamily::shape_of_spell);
   for (std::size_t jump = 0; jump < outcome.effects.size(); ++jump) {
     const DriveFamily& family = *outcome.effects[jump].family;
     if (!family.jumps_in_run) continue;
-    const double length = 0.5 * (outcome.effects[jump].shape[1] + 1.0);
+    const std::vector<double> ends = ends_about(table_.points, outcome.effects[jump].shape[1]);
     for (std::size_t name = 0; name < outcome.effects.size(); ++name) {
       const DriveFamily& whole = *outcome.effects[name].family;
       if (!whole.named || outcome.effects[name].columns() != 1 ||
@@ -106,20 +122,33 @@ void DriveSelection::tell_as_first_rows(DriveOutcome& outcome) {
       OneForm now = as_it_is(outcome);
       const double noise = now.square / std::max(1.0, outcome.rows - now.size);
       OneForm best;
-      for (const double what :
-           {drive_effects::kDrag, drive_effects::kFlanks, drive_effects::kOutputReads}) {
+      double least_of_all = 1e300;
+      const double reads = kReads * noise;
+      const auto tried = [&](double what, double end) {
         OneForm set;
         for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
           if (e == jump || e == name) continue;
           set.effects.push_back(outcome.effects[e]);
           set.from.push_back(static_cast<int>(e));
         }
-        set.effects.push_back({host, host->shape_of_spell(what, 0.0, 0.0, length)});
+        set.effects.push_back({host, host->shape_of_spell(what, 0.0, 0.0, end)});
         set.from.push_back(-1);
-        // (a loss that was no reading: only both directions tell them apart)
-        const double surely = what == double(drive_effects::kOutputReads) ? kReads * noise : 0.0;
-        if (fits(set) && set.square + surely < best.square) best = std::move(set);
-      }
+        return set;
+      };
+      for (const double what :
+           {drive_effects::kDrag, drive_effects::kFlanks, drive_effects::kOutputReads})
+        for (const double end : ends) {
+          OneForm set = tried(what, end);
+          if (!fits(set)) continue;
+          // (a loss that was no reading: only both directions tell them apart; of ends that leave
+          // the same of the rows seen all rows tell which)
+          const double surely = what == double(drive_effects::kOutputReads) ? reads : 0.0,
+                       of_all = square_of_all(set);
+          const bool same = std::abs(set.square - best.square) < OneForm::kTheSame * set.square;
+          if (same ? of_all + surely >= least_of_all : set.square + surely >= best.square) continue;
+          least_of_all = of_all;
+          best = std::move(set);
+        }
       if (best.effects.empty() || best.square - now.square > kAsWell * noise) continue;
       exchange_effects(outcome, best, false);
       return;

@@ -65,6 +65,28 @@ FoundStarts likeliest_starts(const std::vector<StartSums>& start, double of, dou
 
 }  // namespace
 
+void DriveSelection::let_held_out_rows_settle_starts(std::vector<DriveEffect>& effects) const {
+  constexpr double kAsWell = 4.0;  // chi-square
+  const auto asked = [&](const DriveShape& shape) {
+    OneForm set{.effects = effects, .from = std::vector<int>(effects.size(), -1)};
+    set.effects.back().shape = shape;
+    if (!fits(set)) set.square = 1e300;
+    return set;
+  };
+  OneForm now = asked(effects.back().shape);
+  const double noise = now.square / std::max(1.0, rows_of_training() - now.size);
+  for (std::size_t k = forms::kFirstStart; k < effects.back().shape.size(); ++k)
+    for (const double by : {-1.0, 1.0, -2.0, 2.0}) {
+      DriveShape shape = now.effects.back().shape;
+      shape[k] = std::max(0.0, shape[k] + by);
+      OneForm other = asked(shape);
+      if (other.square < now.square + kAsWell * noise &&
+          square_of_all(other) < square_of_all(now) - kAsWell * noise)
+        now = std::move(other);
+    }
+  effects = now.effects;
+}
+
 void DriveSelection::tell_as_starts(DriveOutcome& outcome) {
   constexpr std::size_t kFewestRows = 60;
   constexpr double kLeastGain = 0.1, kFewestTimes = 4.0;
@@ -117,6 +139,7 @@ void DriveSelection::tell_as_starts(DriveOutcome& outcome) {
       // (what stands still at levels is no start)
       if (DriveFit(here, value_, effects, FitRows::kTraining).residual_square() > now.square)
         continue;
+      let_held_out_rows_settle_starts(effects);
       OneForm set = base;
       set.effects.push_back(effects.back());
       set.from.push_back(-1);

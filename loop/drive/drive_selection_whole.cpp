@@ -377,6 +377,9 @@ double DriveSelection::looks_beyond(const DriveOutcome& outcome, const PricedFor
         std::abs(outcome.effects[e].order() - order) < 0.5 / std::max(1.0, table_.turns))
       looks = std::min(looks, cost_of_looks(kOfKnownOrder));
   }
+  // (names of which one takes back what the other does are pieces too)
+  if (set.size < size_with_changes(outcome.effects) && drop_names_that_cancel(outcome, set))
+    of_pieces += kOfAPiece;
   const double fewer =
       static_cast<double>(outcome.effects.size()) - static_cast<double>(set.effects.size());
   return std::max(-kOfAnEffect * std::max(0.0, fewer), priced.looks_before + looks - of_pieces);
