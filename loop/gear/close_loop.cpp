@@ -24,6 +24,7 @@
 #include "trueflank/loop/gear/several_parts.h"
 #include "trueflank/loop/gear/shape_refinement.h"
 #include "trueflank/loop/gear/table/canonical_order.h"
+#include "trueflank/loop/gear/two_clampings.h"
 
 namespace trueflank::loop {
 namespace {
@@ -147,6 +148,7 @@ LoopResult result_of(const FlankGeometry& geometry, const PartModel& model, cons
                                      explained_by(result.before, result.after),
                                      {},
                                      model.table.operator->()});
+  say_two_clampings(geometry, *model.table.operator->(), fit, result.effects);
   say_where_records_differ(model.alone, result);
   result.measure_next =
       measurements_that_separate(result.effects, result.not_observable, *model.table.operator->());

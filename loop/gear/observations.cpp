@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -104,7 +105,8 @@ class TableBuilder {
   void add_inspection(const InspectionData& data, int source) {
     BadLines bad(data.file);
     ForeignRows foreign;
-    const std::size_t before = table.rows.size();
+    const std::size_t before = table.rows.size(), first_place = table.places.size();
+    table.files.push_back(data.file);
     InspectionData of_gear;
     of_gear.common_zero = data.common_zero;
     std::copy_if(data.rows.begin(), data.rows.end(), std::back_inserter(of_gear.rows),
@@ -132,6 +134,9 @@ class TableBuilder {
       return;
     }
     if (!data.from_design) take_design_off(before);
+    if (table.files.size() <= std::numeric_limits<std::uint8_t>::max())
+      for (std::size_t p = first_place; p < table.places.size(); ++p)
+        table.places[p].file = static_cast<std::uint8_t>(table.files.size());
     bad.tell(table.notes);
   }
 

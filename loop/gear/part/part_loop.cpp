@@ -7,6 +7,7 @@
 
 #include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/choice.h"
+#include "trueflank/loop/gear/part/clampings.h"
 #include "trueflank/loop/gear/part/forms_around.h"
 #include "trueflank/loop/gear/part/names/names.h"
 #include "trueflank/loop/gear/part/names/settled_names.h"
@@ -120,6 +121,7 @@ void explain_part(PartModel& model) {
   prefer_names(model);
   prefer_one_name_to_two(model);
   tell_the_usual_of_equals(model);
+  tell_clampings_of_flanks(model);
   take_other_start(model);
   doubt_size_of_flanks(model);
   tell_waves_of_one_flank(model);
