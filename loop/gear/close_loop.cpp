@@ -99,8 +99,10 @@ LoopResult result_of(const FlankGeometry& geometry, const PartModel& model, cons
   result.observations = fit.observations();
   result.held_out = fit.held_out();
   result.outliers = model.table->outliers;
-  const RandomError noise =
+  RandomError noise =
       random_error(geometry, model.table, model.patches, left_um, what_is_left(model));
+  for (const RemainderFinding& finding : model.remainder)
+    if (!std::isnan(finding.noise_um)) noise.um = noise.held_out_um = finding.noise_um;
   result.noise = noise.um;
   result.notes = model.table->notes;
   for (std::string& note : notes_on(still_louder(geometry, model.table, model.patches, left_um)))
