@@ -22,7 +22,7 @@ using PointsOfFlank = std::vector<PointOfFlank>;
 
 /// Takes a surface of the second degree off; false where there are too few points for it.
 bool take_surface_off(PointsOfFlank& points) {
-  constexpr Eigen::Index kTerms = 6, kFewest = 24;
+  constexpr Eigen::Index kTerms = 6, kFewest = 40;
   const Eigen::Index n = std::ssize(points);
   if (n < kFewest) return false;
   Eigen::MatrixXd terms(n, kTerms);
@@ -74,7 +74,9 @@ std::optional<AlikeOverHeight> alike_over_height(const FlankGeometry& geometry,
                                                  const std::vector<bool>& used) {
   constexpr std::size_t kMostRows = 40'000, kFewestPairs = 300;
   constexpr double kApart = 0.3;  // of the face: errors of neighbours may hang together
-  constexpr double kNearest_mm = 0.001, kFarthest_mm = 0.02, kClearly = 1.25;
+  constexpr double kNearest_mm = 0.001, kFarthest_mm = 0.02;
+  // (errors that hang together from line to line differ less over the height, by up to a third)
+  constexpr double kClearly = 1.5;
   std::map<int, PointsOfFlank> flanks;
   const ThinnedRows some(table.points_mm.size(), kMostRows);
   for (std::size_t i = 0; i < table.points_mm.size(); ++i) {
