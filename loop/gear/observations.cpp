@@ -17,6 +17,7 @@
 #include "trueflank/loop/gear/local/measured_lands.h"
 #include "trueflank/loop/gear/table/canonical_order.h"
 #include "trueflank/loop/gear/table/lines_across.h"
+#include "trueflank/loop/gear/table/odd_rows.h"
 #include "trueflank/loop/gear/table/outliers.h"
 #include "trueflank/loop/gear/table/size_scatter.h"
 #include "trueflank/loop/gear/table/trace_zeros.h"
@@ -519,8 +520,11 @@ ResultAll<Observations> make_observations(const FlankGeometry& geometry, Measure
   builder.table.notes = data.notes;
   int source = 0;
   for (ScanData& scan : data.scans) builder.add_scan(scan, source++);
-  for (const InspectionData& inspection : data.inspections)
+  for (InspectionData& inspection : data.inspections) {
+    for (std::string& note : leave_out_odd_rows(inspection))
+      builder.table.notes.push_back(std::move(note));
     builder.add_inspection(inspection, source++);
+  }
   for (const SizeData& sizes : data.sizes) builder.add_sizes(sizes, source++);
   builder.refuse_too_many_single_values();
   if (!builder.errors.empty()) return fail_all(std::move(builder.errors));
