@@ -24,6 +24,7 @@
 #include "trueflank/loop/gear/several_parts.h"
 #include "trueflank/loop/gear/shape_refinement.h"
 #include "trueflank/loop/gear/table/canonical_order.h"
+#include "trueflank/loop/gear/two_clampings.h"
 
 namespace trueflank::loop {
 namespace {
@@ -98,8 +99,10 @@ LoopResult result_of(const FlankGeometry& geometry, const PartModel& model, cons
   result.observations = fit.observations();
   result.held_out = fit.held_out();
   result.outliers = model.table->outliers;
-  const RandomError noise =
+  RandomError noise =
       random_error(geometry, model.table, model.patches, left_um, what_is_left(model));
+  for (const RemainderFinding& finding : model.remainder)
+    if (!std::isnan(finding.noise_um)) noise.um = noise.held_out_um = finding.noise_um;
   result.noise = noise.um;
   result.notes = model.table->notes;
   for (std::string& note : notes_on(still_louder(geometry, model.table, model.patches, left_um)))
@@ -147,6 +150,7 @@ LoopResult result_of(const FlankGeometry& geometry, const PartModel& model, cons
                                      explained_by(result.before, result.after),
                                      {},
                                      model.table.operator->()});
+  say_two_clampings(geometry, *model.table.operator->(), fit, result.effects);
   say_where_records_differ(model.alone, result);
   result.measure_next =
       measurements_that_separate(result.effects, result.not_observable, *model.table.operator->());

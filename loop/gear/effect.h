@@ -63,6 +63,7 @@ struct EffectFamily : EffectFacts {
   bool one_flank_too = false;       ///< may act on one flank only
   bool flank_only = false;          ///< must act on one flank only
   bool local = false;               ///< lives on one tooth
+  bool of_one_file = false;      ///< of records: its number is the first shape value (Place::file)
   bool is_of_one_tooth = false;  ///< a form without a name on the tooth that its shape begins with
   bool tells_its_end = false;       ///< stands at the lower end by its cause: says which end is up
   Correctable correctable = Correctable::kGeometry;

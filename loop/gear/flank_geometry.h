@@ -23,6 +23,7 @@ enum class Surface : std::uint8_t { kFlank, kTip, kRoot, kBore, kNone };
 struct Place {
   Surface surface = Surface::kFlank;
   std::int8_t side = 1;  ///< +1 counter-clockwise flank of its tooth, -1 clockwise
+  std::uint8_t file = 0;  ///< of records: its file's number, from 1; 0: of no file of records
   int tooth = 0;         ///< 1-based, counter-clockwise; 0: none
   double roll_mm = 0.0;  ///< transverse roll length of the flank point
   double z_mm = 0.0;

@@ -164,6 +164,14 @@ class Describer {
     return teeth;
   }
 
+  /// "first.csv: " of an effect of one file's records.
+  std::string in_which_file(const Effect& effect) const {
+    if (!effect.family->of_one_file || sources_.table == nullptr) return "";
+    const auto file = static_cast<std::size_t>(effect.shape[0]);
+    const std::vector<std::string>& files = sources_.table->files;
+    return file >= 1 && file <= files.size() ? files[file - 1] + ": " : "";
+  }
+
   /// The traced teeth among those that an effect of some neighbouring teeth is told of, where not
   /// all of these were traced: "; of these teeth 19 and 20 were traced".
   std::string traced_of_them(const Effect& effect, const std::string& words) const {
@@ -191,7 +199,7 @@ class Describer {
     Term result = term_of(*effect.family, effect.shape);
     const std::span<const double> own(b.data() + column,
                                       static_cast<std::size_t>(effect.columns()));
-    const std::string words = words_for(sources_.geometry, effect, own);
+    const std::string words = in_which_file(effect) + words_for(sources_.geometry, effect, own);
     result.text = with_remark(words + traced_of_them(effect, words), *effect.family);
     result.cos = b[column];
     double variance = covariance(column, column);

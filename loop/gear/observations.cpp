@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -16,6 +17,7 @@
 #include "trueflank/loop/gear/local/measured_lands.h"
 #include "trueflank/loop/gear/table/canonical_order.h"
 #include "trueflank/loop/gear/table/lines_across.h"
+#include "trueflank/loop/gear/table/odd_rows.h"
 #include "trueflank/loop/gear/table/outliers.h"
 #include "trueflank/loop/gear/table/size_scatter.h"
 #include "trueflank/loop/gear/table/trace_zeros.h"
@@ -104,7 +106,8 @@ class TableBuilder {
   void add_inspection(const InspectionData& data, int source) {
     BadLines bad(data.file);
     ForeignRows foreign;
-    const std::size_t before = table.rows.size();
+    const std::size_t before = table.rows.size(), first_place = table.places.size();
+    table.files.push_back(data.file);
     InspectionData of_gear;
     of_gear.common_zero = data.common_zero;
     std::copy_if(data.rows.begin(), data.rows.end(), std::back_inserter(of_gear.rows),
@@ -132,6 +135,9 @@ class TableBuilder {
       return;
     }
     if (!data.from_design) take_design_off(before);
+    if (table.files.size() <= std::numeric_limits<std::uint8_t>::max())
+      for (std::size_t p = first_place; p < table.places.size(); ++p)
+        table.places[p].file = static_cast<std::uint8_t>(table.files.size());
     bad.tell(table.notes);
   }
 
@@ -514,8 +520,11 @@ ResultAll<Observations> make_observations(const FlankGeometry& geometry, Measure
   builder.table.notes = data.notes;
   int source = 0;
   for (ScanData& scan : data.scans) builder.add_scan(scan, source++);
-  for (const InspectionData& inspection : data.inspections)
+  for (InspectionData& inspection : data.inspections) {
+    for (std::string& note : leave_out_odd_rows(inspection))
+      builder.table.notes.push_back(std::move(note));
     builder.add_inspection(inspection, source++);
+  }
   for (const SizeData& sizes : data.sizes) builder.add_sizes(sizes, source++);
   builder.refuse_too_many_single_values();
   if (!builder.errors.empty()) return fail_all(std::move(builder.errors));

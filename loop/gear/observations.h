@@ -58,6 +58,7 @@ struct Observations {
   bool is_displaced = false;
   std::vector<Pose> poses;         ///< of each scan
   std::vector<bool> pose_is_free;  ///< of each scan
+  std::vector<std::string> files;  ///< of records, by their number (Place::file)
   int outliers = 0;
   /// A value of a trace that was left out of the rows, and how far off its neighbours it lay.
   struct LeftOut {

@@ -32,6 +32,7 @@ struct RemainderFinding {
   bool own_phases = false;   ///< waves of every trace, each in its phase
   OwnPlaces places = {};     ///< in single values
   std::vector<OwnWaves> own_waves = {};  ///< on every flank of a scan, each in its phase
+  double noise_um = kNaN;    ///< the error beside it, where it tells that; NaN: it does not
   bool beside_line = false;  ///< along the flanks, sought beside a slope
 };
 

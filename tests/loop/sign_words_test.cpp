@@ -59,7 +59,7 @@ TEST(SignWords, AreSaidOfEveryFormOfOneCoefficient) {
         "unnamed_wobble", "unnamed_reversal", "unnamed_kink_of_teeth", "unnamed_bend_of_teeth",
         "unnamed_waviness_of_teeth", "unnamed_dish_of_teeth", "unnamed_slanted_ridge_of_teeth",
         "unnamed_corner_of_teeth", "unnamed_moved_part", "unnamed_soft_shift",
-        "unnamed_stretching_wave"};
+        "unnamed_stretching_wave", "unnamed_clamping", "unnamed_halves"};
     EXPECT_TRUE(known.contains(family.id) || kOther.contains(family.id)) << family.id;
   }
   for (const loop::EffectFamily& named : loop::effect_library()) {

@@ -71,6 +71,8 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_bow(),
         unnamed_axis_kink(),
         unnamed_soft_shift(),
+        unnamed_clamping(),
+        unnamed_halves(),
         unnamed_field(),
         unnamed_cut_order(),
         unnamed_slip(),

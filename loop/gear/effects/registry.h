@@ -103,6 +103,8 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_bow();
 [[nodiscard]] EffectFamily unnamed_axis_kink();
 [[nodiscard]] EffectFamily unnamed_soft_shift();
+[[nodiscard]] EffectFamily unnamed_clamping();
+[[nodiscard]] EffectFamily unnamed_halves();
 [[nodiscard]] EffectFamily unnamed_field();
 [[nodiscard]] EffectFamily unnamed_cut_order();
 [[nodiscard]] EffectFamily unnamed_slip();

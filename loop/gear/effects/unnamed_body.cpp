@@ -40,7 +40,7 @@ double worth_of_radius(const FlankGeometry& g, const Place& p) {
 }
 
 /// How a wave of the body moves its points.
-enum BodyMoves { kAlongNormal, kOutwards, kAlongAxis };
+enum BodyMoves { kAlongNormal, kOutwards, kAlongAxis, kOutwardsWithLands };
 
 /// So many bells, or what `ends` 1, about directions that are evenly spaced: 1 in the middle of
 /// one.
@@ -104,7 +104,8 @@ void add_keys_of_course(const std::string& along, EffectFamily& f) {
 }  // namespace
 
 /// A body that is out of round by so many waves a turn, along a part of its height or all of it, or
-/// wider there (none): outwards (`radial` 1), all walls along their normals, or (2) around the
+/// wider there (none): outwards (`radial` 1: the flanks; 3: tips and roots, too), all walls along
+/// their normals (0), or (2) around the
 /// gear, as sections of a helical ring that is bent like a saddle are. Oval at one end from
 /// hardening, three lobes where jaws grip, a swelling over a press fit, walls that a light made
 /// thicker on one side. The amplitudes are of the radius or along the normal, where the course is
@@ -115,13 +116,16 @@ EffectFamily unnamed_body_wave() {
                                                    "face_towards", "face_half_mm", "turns_deg"});
   f.columns = [](const EffectShape& shape) { return shape[0] == 0.0 ? 1 : 2; };
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
-    const bool on_flank = p.surface == Surface::kFlank;
-    const double worth = !on_flank                          ? 0.0
-                         : shape[1] == double(kAlongNormal) ? 1.0
-                         : shape[1] == double(kOutwards)    ? worth_of_radius(g, p)
-                                                            : g.normal_z(p);
+    const bool with_lands = shape[1] == double(kOutwardsWithLands);
+    const bool is_moved =
+        p.surface == Surface::kFlank ||
+        (with_lands && (p.surface == Surface::kTip || p.surface == Surface::kRoot));
+    const double worth = !is_moved                                     ? 0.0
+                         : shape[1] == double(kAlongNormal)            ? 1.0
+                         : shape[1] == double(kOutwards) || with_lands ? worth_of_radius(g, p)
+                                                                       : g.normal_z(p);
     const double size =
-        on_flank ? worth * FlankCourse::at(shape, kFaceOfWave).value(g, 1.0, p.z_mm) : 0.0;
+        is_moved ? worth * FlankCourse::at(shape, kFaceOfWave).value(g, 1.0, p.z_mm) : 0.0;
     double angle = shape[0] * p.polar_rad;
     if (shape[kTurnOfWave] != 0.0)
       angle -= shape[0] * rad_from_deg(shape[kTurnOfWave]) * p.z_mm / g.face_width_mm();
@@ -164,7 +168,9 @@ EffectFamily unnamed_body_wave() {
            (shape[kTurnOfWave] != 0.0 ? 1 : 0);
   };
   f.term_keys = {{"order"},
-                 {"moved", TermKey::Kind::kWord, {"along_normal", "outwards", "along_axis"}}};
+                 {"moved",
+                  TermKey::Kind::kWord,
+                  {"along_normal", "outwards", "along_axis", "outwards_with_tips_and_roots"}}};
   add_keys_of_course("face", f);
   f.term_keys.push_back(number("turns_deg"));
   f.words = [](const ToldForm& told) {
@@ -184,6 +190,7 @@ EffectFamily unnamed_body_wave() {
       const std::string what = sign == 0 ? "wider or narrower" : sign > 0 ? "wider" : "narrower";
       return "the body is " + what + where +
              (sign == 0 ? "" : printed(", by %.3g um of radius", std::abs(told.amounts[0]))) +
+             (shape[1] == double(kOutwardsWithLands) ? ", flanks, tips and roots alike" : "") +
              ", as over a press fit or a core";
     }
     if (shape[1] == double(kAlongAxis))

@@ -105,6 +105,13 @@ EffectFamily unnamed_plane_saw() {
   f.words = [](const ToldForm& told) {
     const EffectShape& shape = told.shape;
     const std::string by = axis_of(shape[kByCoordinate]);
+    // (what is rounded to steps is shifted by half of one to either side)
+    constexpr double kAsLarge = 0.15;
+    if (shape[kShifted] == shape[kByCoordinate] && told.amounts.size() == 1 &&
+        std::abs(std::abs(told.amounts[0]) - 1e3 * shape[kWavelength]) <
+            kAsLarge * 1e3 * shape[kWavelength])
+      return by + printed(" of the outline is rounded to steps of %.3g mm", shape[kWavelength]) +
+             ", alike at every height, as from the pixels of a light or the steps of an axis";
     return "places are shifted along " + axis_of(shape[kShifted]) + " in a sawtooth over " + by +
            printed(", period %.4g mm", shape[kWavelength]) + ", one of its jumps at " + by +
            printed(" = %.4g mm", shape[kJump]) +

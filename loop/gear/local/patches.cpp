@@ -21,8 +21,7 @@
 namespace trueflank::loop {
 namespace {
 
-constexpr int kMostPatches = 24000;
-constexpr int kFewestUnits = 24;         // below, units are cut into parts
+constexpr int kMostPatches = 24000, kFewestUnits = 24;  // below that, units are cut into parts
 
 bool is_trace(ObservationKind kind) {
   return kind == ObservationKind::kProfile || kind == ObservationKind::kHelix;
@@ -261,6 +260,7 @@ class PatchMaker {
     else
       place = geometry_.on_circle(place.surface, place.tooth, std::atan2(s.y, s.x), place.radius_mm,
                                   s.z / s.weight);
+    place.file = patch.sample.front().file;
   }
 
   /// Rows of a patch that are kept, and how many there were.

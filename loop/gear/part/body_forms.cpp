@@ -20,6 +20,7 @@
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/runs_along.h"
+#include "trueflank/loop/gear/part/wider_body.h"
 #include "trueflank/loop/gear/shape_refinement.h"
 
 namespace trueflank::loop {
@@ -27,34 +28,6 @@ namespace {
 
 using gear_effects::FlankCourse;
 using Indices = std::vector<std::size_t>;
-
-/// Courses over the profile (0) or the face (1) to begin with: they are moved to their place.
-std::vector<FlankCourse> coarse_courses(const FlankGeometry& geometry, double face) {
-  const double range = std::abs(gear_effects::range_mm(geometry, face));
-  std::vector<FlankCourse> courses;
-  for (const double towards : {-1.0, 1.0}) {
-    for (const double length : {1.0, 0.75, 0.5, 0.25})
-      for (const FlankCourse::Kind kind : {FlankCourse::kKink, FlankCourse::kBend})
-        courses.push_back(
-            {kind, gear_effects::place_at(geometry, face, towards > 0.0 ? 1.0 - length : length),
-             towards});
-    for (const double within : {0.06, 0.12, 0.25})
-      courses.push_back({FlankCourse::kRise, within * range, towards});
-  }
-  for (const double share : {0.15, 0.38, 0.62, 0.85})
-    for (const double half : {0.1, 0.2})
-      courses.push_back(
-          {FlankCourse::kBand, gear_effects::place_at(geometry, face, share), 0.0, half * range});
-  // What holds a part of the face ends at an edge.
-  constexpr double kSharp = 0.0, kSoft = 0.04, kSofter = 0.12;
-  for (const double share : {0.12, 0.25, 0.38, 0.5, 0.62, 0.75, 0.88})
-    for (const double towards : {-1.0, 1.0})
-      for (const double half : {kSharp, kSoft, kSofter})
-        if (face == 1.0)
-          courses.push_back({FlankCourse::kStep, gear_effects::place_at(geometry, face, share),
-                             towards, half * range});
-  return courses;
-}
 
 /// Along what effects run.
 struct RunAlong {
@@ -498,6 +471,38 @@ bool tell_as_wider_part(PartModel& model) {
 
 }  // namespace
 
+std::vector<FlankCourse> coarse_courses(const FlankGeometry& geometry, double face) {
+  const double range = std::abs(gear_effects::range_mm(geometry, face));
+  std::vector<FlankCourse> courses;
+  for (const double towards : {-1.0, 1.0}) {
+    for (const double length : {1.0, 0.75, 0.5, 0.25})
+      for (const FlankCourse::Kind kind : {FlankCourse::kKink, FlankCourse::kBend})
+        courses.push_back(
+            {kind, gear_effects::place_at(geometry, face, towards > 0.0 ? 1.0 - length : length),
+             towards});
+    for (const double within : {0.06, 0.12, 0.25})
+      courses.push_back({FlankCourse::kRise, within * range, towards});
+  }
+  for (const double share : {0.15, 0.38, 0.62, 0.85})
+    for (const double half : {0.1, 0.2})
+      courses.push_back(
+          {FlankCourse::kBand, gear_effects::place_at(geometry, face, share), 0.0, half * range});
+  // What holds a part of the face ends at an edge.
+  constexpr double kSharp = 0.0, kSoft = 0.04, kSofter = 0.12;
+  for (const double share : {0.12, 0.25, 0.38, 0.5, 0.62, 0.75, 0.88})
+    for (const double towards : {-1.0, 1.0})
+      for (const double half : {kSharp, kSoft, kSofter})
+        if (face == 1.0)
+          courses.push_back({FlankCourse::kStep, gear_effects::place_at(geometry, face, share),
+                             towards, half * range});
+  return courses;
+}
+
+std::vector<Effect> wider_bodies(const std::vector<FlankCourse>& courses) {
+  constexpr double kWithLands = 3.0;
+  return body_waves(0.0, kWithLands, courses);
+}
+
 bool tell_as_views(PartModel& model) {
   constexpr int kMostMore = 9;       // values
   constexpr double kClearly = 25.0;  // chi-square
@@ -536,6 +541,7 @@ bool tell_as_views(PartModel& model) {
 }
 
 bool tell_as_body_wave(PartModel& model) {
+  if (tell_as_wider_body(model)) return true;
   std::map<double, Indices> of_order;
   std::set<double> over_face;
   for (std::size_t e = first_told_here(model); e < model.effects.size(); ++e) {

@@ -1,9 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
+#include "trueflank/loop/gear/effects/simple_courses.h"
 #include "trueflank/loop/gear/part/part_model.h"
 
 namespace trueflank::loop {
+
+/// Courses over the profile (0) or the face (1) to begin with: they are moved to their place.
+[[nodiscard]] std::vector<gear_effects::FlankCourse> coarse_courses(const FlankGeometry& geometry,
+                                                                    double face);
+
+/// Bodies that are wider along the face by these courses: flanks, tips and roots.
+[[nodiscard]] std::vector<Effect> wider_bodies(
+    const std::vector<gear_effects::FlankCourse>& courses);
 
 /// A body that is out of round along a part of its height, for what goes around the gear in waves
 /// of one order, along the face or not.

@@ -7,6 +7,7 @@
 
 #include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/choice.h"
+#include "trueflank/loop/gear/part/clampings.h"
 #include "trueflank/loop/gear/part/forms_around.h"
 #include "trueflank/loop/gear/part/names/names.h"
 #include "trueflank/loop/gear/part/names/settled_names.h"
@@ -14,6 +15,7 @@
 #include "trueflank/loop/gear/part/one_flank.h"
 #include "trueflank/loop/gear/part/other_starts.h"
 #include "trueflank/loop/gear/part/parts_of_forms.h"
+#include "trueflank/loop/gear/part/pixels.h"
 #include "trueflank/loop/gear/part/points_aside.h"
 #include "trueflank/loop/gear/part/records.h"
 #include "trueflank/loop/gear/part/single_teeth.h"
@@ -74,7 +76,10 @@ void tell_what_is_left(PartModel& model) {
     tell_what_one_flank_has(model);
     model.remainder = remainder_of(model, model.effects, RemainderOf::kAll);
   }
-  if (!structure_is_left(model)) return;
+  if (!structure_is_left(model)) {
+    tell_pattern_alike_over_height(model);
+    return;
+  }
   if (model.remainder.empty() && model.effects != model.left_beside) ask_what_is_left(model);
   if (!structure_is_left(model)) return;
   doubt_names_below_what_is_left(model);
@@ -120,6 +125,7 @@ void explain_part(PartModel& model) {
   prefer_names(model);
   prefer_one_name_to_two(model);
   tell_the_usual_of_equals(model);
+  tell_clampings_of_flanks(model);
   take_other_start(model);
   doubt_size_of_flanks(model);
   tell_waves_of_one_flank(model);

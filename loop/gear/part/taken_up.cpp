@@ -19,9 +19,11 @@
 #include "trueflank/loop/gear/local/rotation_waves.h"
 #include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/choice.h"
+#include "trueflank/loop/gear/part/clampings.h"
 #include "trueflank/loop/gear/part/drifts.h"
 #include "trueflank/loop/gear/part/names/names_beside_forms.h"
 #include "trueflank/loop/gear/part/part_model.h"
+#include "trueflank/loop/gear/part/pixels.h"
 #include "trueflank/loop/gear/part/waves.h"
 #include "trueflank/loop/gear/possible_effects.h"
 #include "trueflank/loop/gear/remainder_around.h"
@@ -333,6 +335,8 @@ void nominate(PartModel& model) {
   constexpr int kMostWaves = 6;
   for (const RemainderFinding& finding : model.options.start) take_up(model, finding);
   if (const auto drift = drift_over_traces(model)) take_up(model, *drift);
+  for (const RemainderFinding& clamping : clampings_of_files(model)) take_up(model, clamping);
+  for (const RemainderFinding& pixels : pixels_of_plane(model)) take_up(model, pixels);
   for (const RemainderFinding& march : marching_waves(model)) take_up(model, march);
   for (const RemainderFinding& wave : waves_of_odd_course(model)) take_up(model, wave);
   for (int round = 0; round < kMostWaves; ++round) {

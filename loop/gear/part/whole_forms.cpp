@@ -16,6 +16,7 @@
 #include "trueflank/loop/gear/part/fields.h"
 #include "trueflank/loop/gear/part/forms_of_teeth.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
+#include "trueflank/loop/gear/part/halves.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/products.h"
@@ -231,6 +232,7 @@ bool take_up_whole_forms(PartModel& model) {
   if (with.empty()) with = with_walls_of_one_side(model, these);
   if (with.empty()) with = with_sections_aside(model, these);
   if (with.empty()) with = with_one_side(model, these);
+  if (with.empty()) with = with_halves(model, these);
   if (with.empty()) with = with_reversal(model, these);
   if (with.empty()) with = with_products(model, these);
   if (with.empty()) with = with_form_growing_across(model, these);

@@ -259,6 +259,57 @@ std::optional<PlaneStripes> likeliest_plane_stripes(const FlankGeometry& geometr
   return found;
 }
 
+std::vector<PlaneWave> likeliest_pixels(const FlankGeometry& geometry, const Observations& table,
+                                        const std::vector<float>& row_um,
+                                        const std::vector<bool>& used) {
+  // (the width of the gear over the smallest pixel; a wave that takes out as little is no pixel)
+  constexpr double kFinest_mm = 0.012, kSure = 1e-6, kFewestOfAll = 0.05;
+  const PlaneValues values = values_in_plane(geometry, table, row_um, used);
+  const double width_mm = 2.0 * geometry.reference_radius_mm();
+  const double most = width_mm / kFinest_mm;
+  if (values.um.size() < kFewestRowsAsked || most <= kMostPlaneWaves) return {};
+  constexpr std::size_t kOfPiece = 500;
+  const auto count = static_cast<std::size_t>((most - kMostPlaneWaves) / kPlaneStep);
+  const std::size_t pieces = count / kOfPiece + 1;
+  std::vector<std::vector<PlaneGain>> of(2 * pieces);
+  for_each_piece(of.size(), [&](std::size_t k) {
+    const std::size_t by = k % 2, piece = k / 2;
+    const double first = kMostPlaneWaves + kPlaneStep * static_cast<double>(piece * kOfPiece);
+    of[k] = plane_gains(values, static_cast<int>(by), width_mm, first, kPlaneStep, kOfPiece)[by];
+  });
+  double all = 0.0;
+  for (const double um : values.um) all += um * um;
+  std::vector<PlaneWave> found;
+  for (const std::size_t by : {0U, 1U}) {
+    std::vector<double> squares;
+    std::size_t best = 0;
+    for (std::size_t piece = 0; piece < pieces; ++piece)
+      for (const PlaneGain& gain : of[2 * piece + by]) {
+        if (!squares.empty() && gain.square > squares[best]) best = squares.size();
+        squares.push_back(gain.square);
+      }
+    const double usual = median(std::vector<double>(squares)) / std::log(2.0);
+    if (!(usual > 0.0) || squares[best] < kFewestOfAll * all) continue;
+    PlaneWave saw{.along = static_cast<int>(by), .by = static_cast<int>(by)};
+    saw.p_value =
+        std::min(1.0, 2.0 * static_cast<double>(squares.size()) * std::exp(-squares[best] / usual));
+    if (saw.p_value > kSure) continue;
+    constexpr std::size_t kFiner = 17;
+    const double first = kMostPlaneWaves + kPlaneStep * (static_cast<double>(best) - 1.0),
+                 step = 2.0 * kPlaneStep / (kFiner - 1);
+    const auto finer = plane_gains(values, saw.by, width_mm, first, step, kFiner)[by];
+    const auto finest = std::max_element(
+        finer.begin(), finer.end(),
+        [](const PlaneGain& a, const PlaneGain& b) { return a.square < b.square; });
+    saw.wavelength_mm = width_mm / (first + step * static_cast<double>(finest - finer.begin()));
+    saw.amplitude_um = finest->amplitude_um;
+    saw.square = finest->square;
+    tell_as_saw(values, width_mm, saw);
+    if (!std::isnan(saw.jump_mm)) found.push_back(saw);
+  }
+  return found;
+}
+
 std::optional<PlaneWave> likeliest_plane_wave(const FlankGeometry& geometry,
                                               const Observations& table,
                                               const std::vector<float>& row_um,

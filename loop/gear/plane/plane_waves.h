@@ -38,6 +38,13 @@ struct PlaneWave {
                                                             const std::vector<float>& row_um,
                                                             const std::vector<bool>& used);
 
+/// Sawteeth of scanned flanks along x over x and along y over y, far finer than those waves:
+/// pixels, steps of an axis. One, two, or none; a wave that is no sawtooth is none.
+[[nodiscard]] std::vector<PlaneWave> likeliest_pixels(const FlankGeometry& geometry,
+                                                      const Observations& table,
+                                                      const std::vector<float>& row_um,
+                                                      const std::vector<bool>& used);
+
 /// Stripes in any direction, along the normals, at all heights.
 struct PlaneStripes {
   double direction_deg = 0.0, wavelength_mm = 0.0;
