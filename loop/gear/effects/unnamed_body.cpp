@@ -110,7 +110,7 @@ void add_keys_of_course(const std::string& along, EffectFamily& f) {
 /// hardening, three lobes where jaws grip, a swelling over a press fit, walls that a light made
 /// thicker on one side. The amplitudes are of the radius or along the normal, where the course is
 /// most. Told in place of what goes around the gear in waves of that order, or over the face
-/// (part/body_forms.cpp), and no candidate of its own.
+/// (part/body/body_forms.cpp), and no candidate of its own.
 EffectFamily unnamed_body_wave() {
   EffectFamily f = described("unnamed_body_wave", {"order", "radial", "face_course", "face_mm",
                                                    "face_towards", "face_half_mm", "turns_deg"});
@@ -258,7 +258,7 @@ EffectFamily unnamed_body_facing() {
 /// the normal or, `radial` 1, outwards; all over profile and face or along a part of them; a bell
 /// around the gear or, `ends` 1, a squared cosine, as what sags on one side. A sink beside a gate,
 /// the mark of an ejector, a press fit over a keyway. Told in place of forms of some teeth that lie
-/// side by side (part/body_forms.cpp), and no candidate of its own.
+/// side by side (part/body/body_forms.cpp), and no candidate of its own.
 EffectFamily unnamed_body_place() {
   EffectFamily f = described("unnamed_body_place", {"number", "radial", "at_deg", "half_deg"});
   for (const std::string along : {"profile", "face"})

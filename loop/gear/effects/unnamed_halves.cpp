@@ -14,7 +14,7 @@ namespace trueflank::loop::gear_effects {
 /// other the opposite way, sharp at the split: a mould that is open or shifted there. Flanks, tips
 /// and roots; the bore has a core of its own. `towards_deg`: across the split; the columns are
 /// along x and y of the half on that side. Told in place of what goes around the gear in pieces
-/// (part/halves.cpp), and no candidate of its own.
+/// (part/body/halves.cpp), and no candidate of its own.
 EffectFamily unnamed_halves() {
   EffectFamily f = described("unnamed_halves", {"towards_deg"});
   f.columns = [](const EffectShape&) { return 2; };

@@ -104,7 +104,7 @@ EffectFamily unnamed_moved_part() {
 
 /// So many views of a scan, evenly spaced, each moved outwards by an amount of its own: how many,
 /// from where on, and what each has, of a mean square of 1. Told in place of what goes around the
-/// gear (part/body_forms.cpp), and no candidate of its own.
+/// gear (part/body/body_forms.cpp), and no candidate of its own.
 EffectFamily unnamed_views() {
   constexpr std::size_t kValues = 2;
   EffectFamily f = described("unnamed_views", {"number", "from_deg", "pattern"});

@@ -12,7 +12,7 @@
 #include "trueflank/base/units.h"
 #include "trueflank/loop/gear/fit/trial_fit.h"
 #include "trueflank/loop/gear/part/bans.h"
-#include "trueflank/loop/gear/part/body_forms.h"
+#include "trueflank/loop/gear/part/body/body_forms.h"
 #include "trueflank/loop/gear/part/drifts.h"
 #include "trueflank/loop/gear/part/fields.h"
 #include "trueflank/loop/gear/part/forms_around.h"

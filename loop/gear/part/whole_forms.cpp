@@ -12,11 +12,11 @@
 
 #include "trueflank/base/units.h"
 #include "trueflank/loop/gear/local/section_waves.h"
+#include "trueflank/loop/gear/part/body/halves.h"
 #include "trueflank/loop/gear/part/choice.h"
 #include "trueflank/loop/gear/part/fields.h"
 #include "trueflank/loop/gear/part/forms_of_teeth.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
-#include "trueflank/loop/gear/part/halves.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/products.h"

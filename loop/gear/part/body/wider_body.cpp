@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/part/wider_body.h"
+#include "trueflank/loop/gear/part/body/wider_body.h"
 
 #include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "trueflank/loop/gear/effects/along_flank.h"
-#include "trueflank/loop/gear/part/body_forms.h"
+#include "trueflank/loop/gear/part/body/body_forms.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/runs_along.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/part/halves.h"
+#include "trueflank/loop/gear/part/body/halves.h"
 
 #include <algorithm>
 

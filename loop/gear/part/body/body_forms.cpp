@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Forms of the body that carries the teeth, by the direction and the height at which a point lies:
 // forms of single teeth, sectors, combs and waves around the gear are pieces of them.
-#include "trueflank/loop/gear/part/body_forms.h"
+#include "trueflank/loop/gear/part/body/body_forms.h"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -17,10 +17,10 @@
 #include "trueflank/loop/gear/effects/along_flank.h"
 #include "trueflank/loop/gear/effects/simple_courses.h"
 #include "trueflank/loop/gear/moved_sector.h"
+#include "trueflank/loop/gear/part/body/wider_body.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/runs_along.h"
-#include "trueflank/loop/gear/part/wider_body.h"
 #include "trueflank/loop/gear/shape_refinement.h"
 
 namespace trueflank::loop {
