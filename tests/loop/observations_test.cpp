@@ -13,6 +13,7 @@ ResultAll<loop::Observations> observed(const loop::MeasuredData& data) {
   return loop::make_observations(geometry_of(spur(24)), data, {});
 }
 
+/// Round after round, each tooth a little otherwise in every one: equal rows would count once.
 loop::MeasuredData index_values(int count) {
   loop::MeasuredData data;
   data.inspections.emplace_back();
@@ -20,6 +21,7 @@ loop::MeasuredData index_values(int count) {
     loop::InspectionRow row;
     row.record = loop::RecordKind::kIndex;
     row.tooth = i % 24 + 1;
+    row.deviation_um = 0.01 * (i / 24);
     data.inspections.back().rows.push_back(row);
   }
   return data;
