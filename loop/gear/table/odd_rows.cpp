@@ -116,7 +116,9 @@ void leave_out_traces_of_another_unit(InspectionData& data, RecordKind kind,
   }
   if (count == 0 || static_cast<double>(count) > kMostOfThem * static_cast<double>(sizes.size()))
     return;
-  for (const auto& [unit, names] : odd) {
+  for (const auto& of_unit : odd) {
+    const Unit* unit = of_unit.first;
+    const std::vector<TraceName>& names = of_unit.second;
     std::set<int> teeth;
     for (const TraceName& name : names) teeth.insert(name[0]);
     std::string text;
