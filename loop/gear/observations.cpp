@@ -520,6 +520,8 @@ ResultAll<Observations> make_observations(const FlankGeometry& geometry, Measure
   builder.table.notes = data.notes;
   int source = 0;
   for (ScanData& scan : data.scans) builder.add_scan(scan, source++);
+  for (std::string& note : leave_out_copies(data.inspections))
+    builder.table.notes.push_back(std::move(note));
   for (InspectionData& inspection : data.inspections) {
     for (std::string& note : leave_out_odd_rows(inspection))
       builder.table.notes.push_back(std::move(note));

@@ -35,6 +35,21 @@ TEST(OddRows, ThatStandTwiceToTheLastDigitCountOnce) {
   EXPECT_EQ(data.rows.size(), rows.size());
 }
 
+TEST(OddRows, AFileThatIsGivenTwiceCountsOnce) {
+  std::vector<loop::InspectionData> files{index_of(spur(36), 1), index_of(spur(36), 2)};
+  files.push_back(files.front());
+  files[0].file = "first.csv";
+  files[2].file = "copy.csv";
+  const auto notes = loop::leave_out_copies(files);
+  EXPECT_TRUE(says(notes, "copy.csv: has the rows of first.csv to the last digit"));
+  ASSERT_EQ(files.size(), 2U);
+  EXPECT_TRUE(loop::leave_out_copies(files).empty());
+  // (another part may be a copy in all but name only by mistake, but it is another part)
+  files.push_back(files.front());
+  files.back().part = "B";
+  EXPECT_TRUE(loop::leave_out_copies(files).empty());
+}
+
 TEST(OddRows, OfAnIndexMeasuredAgainAllStay) {
   auto data = index_of(spur(36), 1);
   const auto again = index_of(spur(36), 2);  // (the first teeth are 0 in both)

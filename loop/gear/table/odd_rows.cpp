@@ -137,6 +137,32 @@ void leave_out_traces_of_another_unit(InspectionData& data, RecordKind kind,
 
 }  // namespace
 
+std::vector<std::string> leave_out_copies(std::vector<InspectionData>& inspections) {
+  constexpr std::size_t kFewest = 8;
+  const auto is_copy = [](const InspectionData& one, const InspectionData& other) {
+    return one.part == other.part && one.rows.size() == other.rows.size() &&
+           std::equal(one.rows.begin(), one.rows.end(), other.rows.begin(),
+                      [](const InspectionRow& a, const InspectionRow& b) {
+                        return place_of(a) == place_of(b) && a.deviation_um == b.deviation_um;
+                      });
+  };
+  std::vector<std::string> notes;
+  for (std::size_t k = 1; k < inspections.size();) {
+    const auto end = inspections.begin() + static_cast<std::ptrdiff_t>(k);
+    const auto first = std::find_if(inspections.begin(), end, [&](const InspectionData& one) {
+      return is_copy(one, inspections[k]);
+    });
+    if (first == end || inspections[k].rows.size() < kFewest) {
+      ++k;
+      continue;
+    }
+    notes.push_back(inspections[k].file + ": has the rows of " + first->file +
+                    " to the last digit: counted once");
+    inspections.erase(end);
+  }
+  return notes;
+}
+
 std::vector<std::string> leave_out_odd_rows(InspectionData& data) {
   std::vector<std::string> notes;
   std::size_t twice = 0;
