@@ -14,6 +14,7 @@
 #include "trueflank/loop/gear/measure_next.h"
 #include "trueflank/loop/gear/orders_alike.h"
 #include "trueflank/loop/gear/part/bans.h"
+#include "trueflank/loop/gear/part/clampings/two_clampings.h"
 #include "trueflank/loop/gear/part/odd_forms.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/part/records.h"
@@ -24,7 +25,6 @@
 #include "trueflank/loop/gear/several_parts.h"
 #include "trueflank/loop/gear/shape_refinement.h"
 #include "trueflank/loop/gear/table/canonical_order.h"
-#include "trueflank/loop/gear/two_clampings.h"
 
 namespace trueflank::loop {
 namespace {

@@ -9,7 +9,7 @@ namespace trueflank::loop::gear_effects {
 
 /// The teeth stand off the axis in the records of one file (0: of any), on one flank or both: the
 /// gear was clamped anew for these. Taken up where files of records differ so, told in place of
-/// what is the same in all numbers (clampings.cpp), and no candidate of its own.
+/// what is the same in all numbers (part/clampings/clampings.cpp), and no candidate of its own.
 EffectFamily unnamed_clamping() {
   EffectFamily f = described("unnamed_clamping", {"file"});
   f.columns = [](const EffectShape&) { return 2; };

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "trueflank/loop/gear/effects/simple_courses.h"
-#include "trueflank/loop/gear/local/likeliest_products.h"
+#include "trueflank/loop/gear/local/products/likeliest_products.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/one_form.h"
 #include "trueflank/loop/gear/part/part_model.h"

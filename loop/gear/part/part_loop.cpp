@@ -7,7 +7,7 @@
 
 #include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/choice.h"
-#include "trueflank/loop/gear/part/clampings.h"
+#include "trueflank/loop/gear/part/clampings/clampings.h"
 #include "trueflank/loop/gear/part/forms_around.h"
 #include "trueflank/loop/gear/part/names/names.h"
 #include "trueflank/loop/gear/part/names/settled_names.h"

@@ -19,7 +19,7 @@
 #include "trueflank/loop/gear/effects/along_flank.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/effects/simple_courses.h"
-#include "trueflank/loop/gear/local/likeliest_products.h"
+#include "trueflank/loop/gear/local/products/likeliest_products.h"
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/names/names_beside_forms.h"
 #include "trueflank/loop/gear/part/one_form.h"

@@ -19,7 +19,7 @@
 #include "trueflank/loop/gear/local/rotation_waves.h"
 #include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/choice.h"
-#include "trueflank/loop/gear/part/clampings.h"
+#include "trueflank/loop/gear/part/clampings/clampings.h"
 #include "trueflank/loop/gear/part/drifts.h"
 #include "trueflank/loop/gear/part/names/names_beside_forms.h"
 #include "trueflank/loop/gear/part/part_model.h"

@@ -74,7 +74,7 @@ std::optional<AlikeOverHeight> alike_over_height(const FlankGeometry& geometry,
                                                  const std::vector<bool>& used) {
   constexpr std::size_t kMostRows = 40'000, kFewestPairs = 300;
   constexpr double kApart = 0.3;  // of the face: errors of neighbours may hang together
-  constexpr double kNearest_mm = 0.001, kFarthest_mm = 0.02;
+  constexpr double kLeast_mm = 0.001, kMost_mm = 0.02;
   // (errors that hang together from line to line differ less over the height, by up to a third)
   constexpr double kClearly = 1.5;
   std::map<int, PointsOfFlank> flanks;
@@ -96,7 +96,7 @@ std::optional<AlikeOverHeight> alike_over_height(const FlankGeometry& geometry,
     for (const PointOfFlank& p : points) all.push_back(p.um);
   }
   std::vector<double> pairs;
-  for (double near_mm = kNearest_mm; pairs.size() < kFewestPairs && near_mm < kFarthest_mm;
+  for (double near_mm = kLeast_mm; pairs.size() < kFewestPairs && near_mm < kMost_mm;
        near_mm *= 2.0)
     pairs = differences(flanks, near_mm, kApart * geometry.face_width_mm());
   if (pairs.size() < kFewestPairs) return {};

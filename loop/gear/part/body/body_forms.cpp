@@ -463,10 +463,7 @@ bool tell_as_wider_part(PartModel& model) {
     }
   }
   if (!nameless || !leans) return false;
-  std::vector<FlankCourse> courses = coarse_courses(model.geometry, 1.0);
-  for (const double share : {0.2, 0.35, 0.5, 0.65, 0.8})  // a waist
-    courses.push_back({FlankCourse::kVee, gear_effects::place_at(model.geometry, 1.0, share)});
-  return put_one_form_for(model, these, body_waves(0.0, 1.0, courses));
+  return put_one_form_for(model, these, body_waves(0.0, 1.0, courses_of_a_width(model.geometry)));
 }
 
 }  // namespace
@@ -495,6 +492,13 @@ std::vector<FlankCourse> coarse_courses(const FlankGeometry& geometry, double fa
         if (face == 1.0)
           courses.push_back({FlankCourse::kStep, gear_effects::place_at(geometry, face, share),
                              towards, half * range});
+  return courses;
+}
+
+std::vector<FlankCourse> courses_of_a_width(const FlankGeometry& geometry) {
+  std::vector<FlankCourse> courses = coarse_courses(geometry, 1.0);
+  for (const double share : {0.2, 0.35, 0.5, 0.65, 0.8})  // a waist
+    courses.push_back({FlankCourse::kVee, gear_effects::place_at(geometry, 1.0, share)});
   return courses;
 }
 

@@ -12,6 +12,10 @@ namespace trueflank::loop {
 [[nodiscard]] std::vector<gear_effects::FlankCourse> coarse_courses(const FlankGeometry& geometry,
                                                                     double face);
 
+/// Courses over the face that a width may have: these, and a waist.
+[[nodiscard]] std::vector<gear_effects::FlankCourse> courses_of_a_width(
+    const FlankGeometry& geometry);
+
 /// Bodies that are wider along the face by these courses: flanks, tips and roots.
 [[nodiscard]] std::vector<Effect> wider_bodies(
     const std::vector<gear_effects::FlankCourse>& courses);

@@ -39,9 +39,7 @@ bool tell_as_wider_body(PartModel& model) {
     along_face = along_face || (runs == Runs::kOverFace && !effect.family->named);
   }
   if (!along_face || all.size() < kFewest) return false;
-  std::vector<FlankCourse> courses = coarse_courses(model.geometry, 1.0);
-  for (const double share : {0.2, 0.35, 0.5, 0.65, 0.8})  // a waist
-    courses.push_back({FlankCourse::kVee, gear_effects::place_at(model.geometry, 1.0, share)});
+  std::vector<FlankCourse> courses = courses_of_a_width(model.geometry);
   // A sharp edge is where the flanks have theirs: from beside it a band may come nearer.
   const double face_mm = model.geometry.face_width_mm();
   for (const std::size_t e : all) {

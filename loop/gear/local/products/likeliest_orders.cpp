@@ -10,7 +10,7 @@
 
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/gear/effects/registry.h"
-#include "trueflank/loop/gear/local/product_cells.h"
+#include "trueflank/loop/gear/local/products/product_cells.h"
 
 namespace trueflank::loop::product_cells {
 namespace {

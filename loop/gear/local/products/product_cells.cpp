@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/local/product_cells.h"
+#include "trueflank/loop/gear/local/products/product_cells.h"
 
 #include <algorithm>
 #include <cmath>

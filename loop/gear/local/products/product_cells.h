@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "trueflank/loop/gear/effects/simple_courses.h"
-#include "trueflank/loop/gear/local/likeliest_products.h"
+#include "trueflank/loop/gear/local/products/likeliest_products.h"
 
 // Residuals summed in cells of every flank, and courses in these: what likeliest_products.h seeks
 // in.

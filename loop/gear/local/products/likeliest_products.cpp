@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/local/likeliest_products.h"
+#include "trueflank/loop/gear/local/products/likeliest_products.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -12,7 +12,7 @@
 #include "trueflank/base/units.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/effects/simple_courses.h"
-#include "trueflank/loop/gear/local/product_cells.h"
+#include "trueflank/loop/gear/local/products/product_cells.h"
 
 namespace trueflank::loop {
 namespace product_cells {

@@ -8,6 +8,13 @@
 
 namespace trueflank::loop {
 
+/// The teeth stand off the axis where this flank was measured.
+[[nodiscard]] Effect clamping_of(FlankChoice flank);
+/// The two names that two clampings look like together: an eccentricity, and a wave of pitch once
+/// per turn.
+[[nodiscard]] Effect eccentric();
+[[nodiscard]] Effect wave_of_pitch();
+
 /// True where nothing but an index and sizes was measured.
 [[nodiscard]] bool is_index_alone(const Observations& table);
 

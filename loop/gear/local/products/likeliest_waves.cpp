@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "trueflank/base/units.h"
-#include "trueflank/loop/gear/local/product_cells.h"
+#include "trueflank/loop/gear/local/products/product_cells.h"
 
 namespace trueflank::loop::product_cells {
 namespace {

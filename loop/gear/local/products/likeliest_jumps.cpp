@@ -13,7 +13,7 @@
 
 #include "trueflank/loop/gear/effects/along_flank.h"
 #include "trueflank/loop/gear/effects/registry.h"
-#include "trueflank/loop/gear/local/product_cells.h"
+#include "trueflank/loop/gear/local/products/product_cells.h"
 
 namespace trueflank::loop {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/two_clampings.h"
+#include "trueflank/loop/gear/part/clampings/two_clampings.h"
 
 #include <Eigen/Core>
 #include <Eigen/QR>
@@ -11,6 +11,7 @@
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
 #include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/result/describe.h"
 
 namespace trueflank::loop {
 namespace {
@@ -66,9 +67,11 @@ std::string in_words(const Eigen::Vector2d& wave_um, const char* what) {
          gear_effects::towards(deg_from_rad(std::atan2(wave_um[1], wave_um[0])));
 }
 
-Effect clamping_of(FlankChoice flank) { return {find_family("unnamed_clamping"), flank, {0.0}}; }
-Effect eccentric() { return {find_family("eccentricity"), FlankChoice::kBoth, {}}; }
-Effect wave_of_pitch() { return {find_family("pitch_wave"), FlankChoice::kBoth, {1.0}}; }
+/// The sentence up to what is to be done.
+std::string without_action(const FoundEffect& found) {
+  const std::string action = first_action(found.correction);
+  return action.empty() ? found.sentence : found.sentence.substr(0, found.sentence.find(action));
+}
 
 /// Beside two names: they may be two clampings.
 void say_clampings_beside_names(const FlankGeometry& geometry, const Observations& table,
@@ -78,11 +81,12 @@ void say_clampings_beside_names(const FlankGeometry& geometry, const Observation
       same_by(geometry, table, fit, names,
               {clamping_of(FlankChoice::kLeft), clamping_of(FlankChoice::kRight)});
   for (FoundEffect& found : effects) {
-    const bool once = found.id == "eccentricity" ||
-                      (found.id == "pitch_wave" && gear_effects::figure(found, "order") == 1.0);
+    const EffectFamily* family = find_family(found.id);
+    const bool once = family == eccentric().family || (family == wave_of_pitch().family &&
+                                                       gear_effects::figure(found, "order") == 1.0);
     if (!once || found.flank != "both") continue;
     found.sentence =
-        found.sentence.substr(0, found.sentence.find(';')) +
+        without_action(found) +
         "; or left and right flanks were measured in two clampings, the left ones " +
         in_words(moved.head<2>(), " off the axis ") + ", the right ones " +
         in_words(moved.tail<2>(), " off the axis ") +
@@ -113,6 +117,10 @@ void say_names_beside_clampings(const FlankGeometry& geometry, const Observation
 }
 
 }  // namespace
+
+Effect clamping_of(FlankChoice flank) { return {find_family("unnamed_clamping"), flank, {0.0}}; }
+Effect eccentric() { return {find_family("eccentricity"), FlankChoice::kBoth, {}}; }
+Effect wave_of_pitch() { return {find_family("pitch_wave"), FlankChoice::kBoth, {1.0}}; }
 
 bool is_index_alone(const Observations& table) {
   return std::all_of(table.rows.begin(), table.rows.end(), [](const Observation& row) {

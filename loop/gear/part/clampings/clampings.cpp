@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A gear that was clamped anew between two files of records.
-#include "trueflank/loop/gear/part/clampings.h"
+#include "trueflank/loop/gear/part/clampings/clampings.h"
 
 #include <Eigen/Core>
 #include <Eigen/QR>
@@ -13,8 +13,8 @@
 
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/gear/part/bans.h"
+#include "trueflank/loop/gear/part/clampings/two_clampings.h"
 #include "trueflank/loop/gear/part/one_form.h"
-#include "trueflank/loop/gear/two_clampings.h"
 
 namespace trueflank::loop {
 namespace {
@@ -31,7 +31,7 @@ struct RowOfFile {
 
 /// Rows with one value a tooth of the files that have them on enough teeth.
 std::vector<RowOfFile> rows_of_files(const PartModel& model) {
-  const EffectFamily* eccentricity = find_family("eccentricity");
+  const Effect displaced = eccentric();
   const Observations& table = *model.table.operator->();
   std::map<int, std::set<int>> teeth;
   std::vector<RowOfFile> rows;
@@ -44,7 +44,7 @@ std::vector<RowOfFile> rows_of_files(const PartModel& model) {
     RowOfFile one{place.file, i, {}};
     for (std::uint32_t p = row.first_place; p < row.first_place + row.places; ++p) {
       double columns[2];
-      eccentricity->evaluate(model.geometry, table.places[p], {}, columns);
+      displaced.evaluate(model.geometry, table.places[p], columns);
       for (std::size_t k : {0, 1}) one.moves[k] += row.weight * columns[k];
     }
     rows.push_back(one);
@@ -173,8 +173,8 @@ std::vector<std::size_t> once_per_turn(const PartModel& model) {
     const bool term = effect.family == find_family("unnamed") && effect.order() == 1.0 &&
                       !needs.along_profile && !needs.along_face;
     if (effect.flank == FlankChoice::kBoth &&
-        (term || effect.family == find_family("eccentricity") ||
-         (effect.family == find_family("pitch_wave") && effect.order() == 1.0)))
+        (term || effect.family == eccentric().family ||
+         (effect.family == wave_of_pitch().family && effect.order() == 1.0)))
       these.push_back(e);
   }
   return these;
@@ -272,8 +272,6 @@ std::vector<RemainderFinding> clampings_of_files(const PartModel& model) {
 
 void tell_clampings_of_flanks(PartModel& model) {
   if (!asks_for_clampings(model) || !is_index_alone(model.table)) return;
-  const EffectFamily *eccentricity = find_family("eccentricity"),
-                     *pitch_wave = find_family("pitch_wave");
   const std::vector<std::size_t> these = once_per_turn(model);
   if (these.size() != 2) return;
   std::map<int, std::set<int>> sides;
@@ -289,13 +287,13 @@ void tell_clampings_of_flanks(PartModel& model) {
     for (const auto& [file, side] : sides) clampings.push_back(clamping_of_file(file));
   } else {
     for (const FlankChoice flank : {FlankChoice::kLeft, FlankChoice::kRight})
-      clampings.push_back({find_family("unnamed_clamping"), flank, {0.0}});
+      clampings.push_back(clamping_of(flank));
   }
-  names.push_back({eccentricity, FlankChoice::kBoth, {}});
-  names.push_back({pitch_wave, FlankChoice::kBoth, {1.0}});
+  names.push_back(eccentric());
+  names.push_back(wave_of_pitch());
   const double most = cost_of(model, model.effects) + kChiSquareOfValue;
-  const bool told_by_names = can_have(model.options.makings, *eccentricity) &&
-                             can_have(model.options.makings, *pitch_wave);
+  const bool told_by_names = can_have(model.options.makings, *eccentric().family) &&
+                             can_have(model.options.makings, *wave_of_pitch().family);
   if (cost_of(model, clampings) <= most &&
       (of_one_side || !told_by_names || how_likelier(model, clampings, names) > kFarLikelier))
     put_in_place_of(model, these, clampings);
