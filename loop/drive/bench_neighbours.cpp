@@ -52,14 +52,14 @@ class Neighbours {
       if (const double most = kMostOfMiddleSize * median(sizes); most > 0.0)
         for (double& s : size_) s = std::clamp(s, -most, most);
     hangs_ = rows_that_hang_together();
-    for (std::size_t i = 0; i < points.size(); ++i)
-      if (i == 0 || points[i].file != points[i - 1].file ||
-          (visit_[i] != visit_[i - 1] && i - block_begin_ >= static_cast<std::size_t>(hangs_))) {
-        block_begin_ = i;
-        block_.push_back(block_.empty() ? 0 : block_.back() + 1);
-      } else {
-        block_.push_back(block_.back());
-      }
+    std::size_t begin = 0;  // of the block
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const bool begins =
+          i == 0 || points[i].file != points[i - 1].file ||
+          (visit_[i] != visit_[i - 1] && i - begin >= static_cast<std::size_t>(hangs_));
+      if (begins) begin = i;
+      block_.push_back(i == 0 ? 0 : block_.back() + (begins ? 1 : 0));
+    }
     record(orders);
   }
 
@@ -108,17 +108,18 @@ class Neighbours {
     const std::size_t n = size_.size(), most = n / kFewestBlocks;
     double square = 0.0;
     for (const double s : size_) square += s * s;
-    const auto shared = [&](std::size_t lag) {
-      double product = 0.0;
-      for (std::size_t i = lag; i < n; ++i)
-        if (points[i].file == points[i - lag].file) product += size_[i] * size_[i - lag];
-      return product / square;
-    };
     if (!(square > 0.0)) return 1;
+    std::vector<double> shared{1.0};  // of every lag
     for (std::size_t apart = 1; apart < most; ++apart) {
+      for (std::size_t lag = shared.size(); lag <= 2 * apart; ++lag) {
+        double product = 0.0;
+        for (std::size_t i = lag; i < n; ++i)
+          if (points[i].file == points[i - lag].file) product += size_[i] * size_[i - lag];
+        shared.push_back(product / square);
+      }
       double mean = 0.0;
       for (std::size_t lag = apart; lag <= 2 * apart; ++lag)
-        mean += shared(lag) / static_cast<double>(apart + 1);
+        mean += shared[lag] / static_cast<double>(apart + 1);
       if (mean < std::max(kNothing, kByChance / std::sqrt(static_cast<double>(n * (apart + 1)))))
         return static_cast<std::ptrdiff_t>(apart);
     }
@@ -342,7 +343,6 @@ class Neighbours {
   std::vector<double> size_;  ///< of every row, in its noise's units
   std::ptrdiff_t hangs_ = 1;  ///< rows whose errors hang together
   std::vector<int> block_;    ///< of every row: a visit, or so many rows
-  std::size_t block_begin_ = 0;
   std::vector<RecordedCourse> courses_;
 };
 

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "trueflank/geometry/linear_equations.h"
-#include "trueflank/loop/drive/states_scan.h"
+#include "trueflank/loop/drive/scans/states_scan.h"
 
 namespace trueflank::loop {
 namespace {

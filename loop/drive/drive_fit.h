@@ -26,6 +26,15 @@ class DriveFit {
   [[nodiscard]] int first_column(int effect) const { return first_column_[effect]; }
   [[nodiscard]] const Eigen::VectorXd& coefficients() const { return coefficients_; }
   [[nodiscard]] double residual_square() const { return residual_square_; }
+  /// False where an amount cannot be what it is called: of one effect, of any.
+  [[nodiscard]] bool can_be(int effect) const {
+    return effects_[effect].can_be(context_.model, coefficients_[first_column_[effect]]);
+  }
+  [[nodiscard]] bool can_be() const {
+    for (int e = 0; e < static_cast<int>(effects_.size()); ++e)
+      if (!can_be(e)) return false;
+    return true;
+  }
   /// What the effects add to the driven torque of every point [N m].
   [[nodiscard]] Eigen::VectorXd explained_nm() const { return columns_ * coefficients_; }
   [[nodiscard]] Eigen::VectorXd explained_nm(int effect) const;

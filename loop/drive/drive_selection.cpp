@@ -6,10 +6,10 @@
 
 #include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/place_profile.h"
-#include "trueflank/loop/drive/rest_scan.h"
-#include "trueflank/loop/drive/spell_scan.h"
-#include "trueflank/loop/drive/states_scan.h"
-#include "trueflank/loop/drive/wander_scan.h"
+#include "trueflank/loop/drive/scans/rest_scan.h"
+#include "trueflank/loop/drive/scans/spell_scan.h"
+#include "trueflank/loop/drive/scans/states_scan.h"
+#include "trueflank/loop/drive/scans/wander_scan.h"
 
 namespace trueflank::loop {
 namespace {
@@ -287,10 +287,8 @@ bool DriveSelection::ban_wrong_signs(const DriveOutcome& outcome) {
   bool any = false;
   for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
     const DriveFamily* family = outcome.effects[e].family;
-    const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
-    const bool wrong = (family->only_positive && !(b > 0.0)) ||
-                       (family->plausible && !family->plausible(model_, b));
-    if (wrong) any = ban([&](const DriveEffect& c) { return c.family == family; }) || any;
+    if (!fit.can_be(static_cast<int>(e)))
+      any = ban([&](const DriveEffect& c) { return c.family == family; }) || any;
   }
   // Flanks give no power in either direction: a difference that asks for that is a sensor's.
   if (!rubs_both_ways(state_of(fit)))

@@ -183,7 +183,8 @@ class DriveSelection {
   /// Of every kind the form over a quantity that takes most off beside these effects.
   [[nodiscard]] std::vector<DriveEffect> likeliest_forms(const std::vector<DriveEffect>& base,
                                                          double over) const;
-  /// Of few rows a name that is as good as certain by a normal law. True where one was taken.
+  /// Of few rows a name that is as good as certain by a normal law, where nothing was chosen or one
+  /// name that leaves surely more. True where one was taken.
   bool take_what_few_rows_show(DriveOutcome& outcome);
   /// A name of the whole run and a jump that takes it back, told as a loss of the first rows.
   void tell_as_first_rows(DriveOutcome& outcome);

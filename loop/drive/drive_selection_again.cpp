@@ -32,7 +32,7 @@ SeenRows seen_rows(const DriveContext& context, const Eigen::VectorXd& left, dou
     const BenchPoint& p = context.table.points[i];
     if (p.fold == 0) continue;
     seen.left.push_back(left[static_cast<Eigen::Index>(i)] / p.sigma_nm);
-    seen.column.push_back(forms::run_wave_nm(context, p, of) / p.sigma_nm);
+    seen.column.push_back(forms::sized_loss_nm(context, p, of) / p.sigma_nm);
     seen.row.push_back(&p);
   }
   return seen;
@@ -113,7 +113,7 @@ struct ScannedWaves {
 };
 
 constexpr std::array<double, 3> kWaveSizes{double(forms::kDrag), double(forms::kFlanks),
-                                           forms::kRwBySpeed};
+                                           forms::kBySpeed};
 
 /// Even waves of so many periods at most, of so many rows each at least, are told elsewhere.
 constexpr double kMostEvenTimes = 24.0, kRowsOfEven = 6.0;
@@ -135,30 +135,19 @@ ScannedWaves scan_waves(const DriveContext& context, const Eigen::VectorXd& left
       // (the shortest waves keep rows enough)
       const double shortest = n / times * std::abs(stretch) / std::expm1(std::abs(stretch));
       if (k != 0 && shortest < kRowsEach) continue;
-      std::array<std::array<double, 5>, 3> sums{};
+      std::array<WaveProducts, 3> products{};
       for (std::size_t i = 0; i < share.size(); ++i) {
         const double angle = kTwoPi * forms::periods_of_run(share[i], times, stretch),
                      c = std::cos(angle), s = std::sin(angle);
-        for (std::size_t of = 0; of < seen.size(); ++of) {
-          const double x = seen[of].column[i], y = seen[of].left[i];
-          sums[of][0] += x * x * c * c;
-          sums[of][1] += x * x * c * s;
-          sums[of][2] += x * x * s * s;
-          sums[of][3] += x * y * c;
-          sums[of][4] += x * y * s;
-        }
+        for (std::size_t of = 0; of < seen.size(); ++of)
+          products[of].add(seen[of].column[i] * c, seen[of].column[i] * s, seen[of].left[i]);
       }
       found.looks += 1.0;
       for (std::size_t of = 0; of < seen.size(); ++of) {
-        const auto& [cc, cs, ss, cy, sy] = sums[of];
-        const double determinant = cc * ss - cs * cs;
-        if (!(determinant > 0.0)) continue;
-        const double a = (ss * cy - cs * sy) / determinant, b = (cc * sy - cs * cy) / determinant,
-                     gain = a * cy + b * sy;
+        const WaveAmounts wave = products[of].solved();
         Scanned& best = k == 0 ? found.plain[of] : found.changing[of];
-        if (gain <= best.gain) continue;
-        best = {gain,
-                {times, std::atan2(b, a) / kTwoPi, kWaveSizes[of], double(forms::kRwToEitherSide)}};
+        if (wave.gain <= best.gain) continue;
+        best = {wave.gain, {times, wave.phase(), kWaveSizes[of], double(forms::kRwToEitherSide)}};
         if (k != 0) best.shape.push_back(stretch);
       }
     }
@@ -192,12 +181,10 @@ ScannedWaves scan_quick_waves(const DriveContext& context, const Eigen::VectorXd
                of_squares = line_sums(angle, square, 2.0 * first, 2.0 * kStep, lines);
     std::vector<double> gain;
     for (std::size_t k = 0; k < of_left.size(); ++k) {
-      const double cc = 0.5 * (weights + of_squares[k].real()), ss = weights - cc,
-                   cs = 0.5 * of_squares[k].imag(), determinant = cc * ss - cs * cs,
-                   c = of_left[k].real(), s = of_left[k].imag();
-      gain.push_back(determinant > 1e-3 * weights * weights
-                         ? (c * c * ss - 2.0 * c * s * cs + s * s * cc) / determinant
-                         : 0.0);
+      const double cos_cos = 0.5 * (weights + of_squares[k].real());
+      const WaveProducts products{cos_cos, 0.5 * of_squares[k].imag(), weights - cos_cos,
+                                  of_left[k].real(), of_left[k].imag()};
+      gain.push_back(products.solved(1e-3 * weights * weights).gain);
     }
     const auto highest =
         static_cast<int>(std::max_element(gain.begin(), gain.end()) - gain.begin());

@@ -8,11 +8,9 @@
 
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/drive/drive_selection.h"
-#include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/one_form.h"
-#include "trueflank/loop/drive/place_profile.h"
 
-// What few rows show: a name in a bench of few rows, and a loss that the first rows alone have.
+// What few rows show: a name in a bench of few rows.
 namespace trueflank::loop {
 namespace {
 
@@ -29,7 +27,8 @@ struct FewRows {
   [[nodiscard]] double p_value() const {
     if (!(square > 0.0) || rows < 4.0) return 1.0;
     const double taken = product * product / square, below = left - taken;
-    return below > 0.0 ? f_tail(taken * (rows - 1.0) / below, 1.0, rows - 1.0) : 1.0;
+    if (!(taken > 0.0)) return 1.0;
+    return below > 0.0 ? f_tail(taken * (rows - 1.0) / below, 1.0, rows - 1.0) : 0.0;
   }
 };
 
@@ -61,29 +60,18 @@ std::vector<double> p_values_without_the_most(const DriveContext& context,
   return p_values;
 }
 
-/// Half way between rows that follow each other, of the few about a place of the run (-1 ... 1).
-std::vector<double> ends_about(const std::vector<BenchPoint>& points, double place) {
-  constexpr std::ptrdiff_t kAbout = 3;
-  std::ptrdiff_t at = 0;
-  while (at + 1 < static_cast<std::ptrdiff_t>(points.size()) &&
-         2.0 * points[static_cast<std::size_t>(at) + 1].taken - 1.0 < place)
-    ++at;
-  std::vector<double> ends;
-  for (std::ptrdiff_t row = at - kAbout; row <= at + kAbout; ++row)
-    if (row >= 0 && row + 1 < static_cast<std::ptrdiff_t>(points.size()))
-      ends.push_back(0.5 * (points[static_cast<std::size_t>(row)].taken +
-                            points[static_cast<std::size_t>(row) + 1].taken));
-  return ends;
-}
-
 }  // namespace
 
 /// The engine flips the signs of rows, of which an effect that few rows show has too few: by a
 /// normal law it may be as good as certain. It must be so without the rows that speak for it most.
+/// It also takes the place of one name that leaves surely more.
 bool DriveSelection::take_what_few_rows_show(DriveOutcome& outcome) {
-  constexpr double kFewRows = 64.0, kSure = 1e-5;
+  constexpr double kFewRows = 64.0, kSure = 1e-5, kSurest = 1e-300;
+  constexpr double kSurelyMore = 20.0;                       // chi-square
   constexpr std::array<double, 2> kSureWithout{1e-3, 1e-2};  // one row, two rows
-  if (!outcome.effects.empty() || outcome.rows > kFewRows) return false;
+  const bool has_one_name = outcome.effects.size() == 1 && outcome.effects.front().family->named;
+  if ((!outcome.effects.empty() && !has_one_name) || outcome.rows > kFewRows) return false;
+  const OneForm now = as_it_is(outcome);
   std::set<const DriveFamily*> families;
   OneForm best;
   double least = kSure;
@@ -97,102 +85,14 @@ bool DriveSelection::take_what_few_rows_show(DriveOutcome& outcome) {
     set.effects = {c};
     set.from = {-1};
     if (!fits(set)) continue;
+    const double noise = set.square / std::max(1.0, outcome.rows - set.size);
+    if (has_one_name && now.square - set.square <= kSurelyMore * noise) continue;
     least = p[0];
     best = std::move(set);
   }
-  const double asked = static_cast<double>(families.size());
-  if (best.effects.empty() || !(asked * least < kSure)) return false;
-  return exchange_unless_denied(outcome, best, -2.0 * std::log(asked * least));
-}
-
-/// A name of the whole run and a jump that takes it back are one loss of the rows before the jump.
-void DriveSelection::tell_as_first_rows(DriveOutcome& outcome) {
-  // (chi-square: of the figure that is less, and of two that take each other back by chance)
-  constexpr double kAsWell = 12.0, kReads = 9.0;
-  const DriveFamily* host = family_with(&DriveFamily::shape_of_spell);
-  for (std::size_t jump = 0; jump < outcome.effects.size(); ++jump) {
-    const DriveFamily& family = *outcome.effects[jump].family;
-    if (!family.jumps_in_run) continue;
-    const std::vector<double> ends = ends_about(table_.points, outcome.effects[jump].shape[1]);
-    for (std::size_t name = 0; name < outcome.effects.size(); ++name) {
-      const DriveFamily& whole = *outcome.effects[name].family;
-      if (!whole.named || outcome.effects[name].columns() != 1 ||
-          !outcome.effects[name].shape.empty() || whole.drifts || whole.follows_the_run)
-        continue;
-      OneForm now = as_it_is(outcome);
-      const double noise = now.square / std::max(1.0, outcome.rows - now.size);
-      OneForm best;
-      double least_of_all = 1e300;
-      const double reads = kReads * noise;
-      const auto tried = [&](double what, double end) {
-        OneForm set;
-        for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
-          if (e == jump || e == name) continue;
-          set.effects.push_back(outcome.effects[e]);
-          set.from.push_back(static_cast<int>(e));
-        }
-        set.effects.push_back({host, host->shape_of_spell(what, 0.0, 0.0, end)});
-        set.from.push_back(-1);
-        return set;
-      };
-      for (const double what :
-           {drive_effects::kDrag, drive_effects::kFlanks, drive_effects::kOutputReads})
-        for (const double end : ends) {
-          OneForm set = tried(what, end);
-          if (!fits(set)) continue;
-          // (a loss that was no reading: only both directions tell them apart; of ends that leave
-          // the same of the rows seen all rows tell which)
-          const double surely = what == double(drive_effects::kOutputReads) ? reads : 0.0,
-                       of_all = square_of_all(set);
-          const bool same = std::abs(set.square - best.square) < OneForm::kTheSame * set.square;
-          if (same ? of_all + surely >= least_of_all : set.square + surely >= best.square) continue;
-          least_of_all = of_all;
-          best = std::move(set);
-        }
-      if (best.effects.empty() || best.square - now.square > kAsWell * noise) continue;
-      exchange_effects(outcome, best, false);
-      return;
-    }
-  }
-}
-
-/// A reading that stands still from a torque on is a loss that begins there only by chance: where
-/// it leaves as little, it takes the place of what has no name.
-void DriveSelection::tell_as_cap(DriveOutcome& outcome) {
-  constexpr double kAsWell = 4.0;  // chi-square
-  const bool begins_at_a_load =
-      std::any_of(outcome.effects.begin(), outcome.effects.end(), [](const DriveEffect& e) {
-        return !e.family->named && e.family->over && e.family->over(e.shape) == 0.0;
-      });
-  if (!begins_at_a_load) return;
-  const DriveFamily& cap = *family_with(&DriveFamily::is_cap);
-  const OneForm now = as_it_is(outcome);
-  const double noise = now.square / std::max(1.0, outcome.rows - now.size);
-  const DriveContext here = context();
-  OneForm best;
-  for (const bool with_names : {true, false}) {
-    OneForm set;
-    for (std::size_t e = 0; e < outcome.effects.size() && with_names; ++e) {
-      if (!outcome.effects[e].family->named) continue;
-      set.effects.push_back(outcome.effects[e]);
-      set.from.push_back(static_cast<int>(e));
-    }
-    const BesideEffects beside(here, value_, set.effects, FitRows::kTraining);
-    DriveEffect likeliest{&cap, {}};
-    double most = 0.0;
-    for (DriveShape& shape : cap.whole_shapes(here))
-      if (const double gain = beside.with({&cap, shape}).gain; gain > most) {
-        most = gain;
-        likeliest.shape = std::move(shape);
-      }
-    if (!(most > 0.0)) continue;
-    set.effects.push_back(nearest_best(here, beside, nearest_best(here, beside, likeliest)));
-    set.from.push_back(-1);
-    if (fits(set) && set.figure(noise) < best.figure(noise)) best = std::move(set);
-  }
-  if (best.effects.empty() || best.size > now.size || best.square - now.square > kAsWell * noise)
-    return;
-  (void)exchange_unless_denied(outcome, best, 0.0);
+  const double p_value = static_cast<double>(families.size()) * least;
+  if (best.effects.empty() || !(p_value < kSure)) return false;
+  return exchange_unless_denied(outcome, best, -2.0 * std::log(std::max(kSurest, p_value)));
 }
 
 }  // namespace trueflank::loop

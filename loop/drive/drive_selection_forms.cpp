@@ -312,13 +312,9 @@ double DriveSelection::square_of_all(const OneForm& set) const {
 bool DriveSelection::fits(OneForm& set) const {
   const DriveContext here = context();
   const DriveFit fit(here, value_, set.effects, FitRows::kTraining);
-  for (std::size_t e = 0; e < set.effects.size(); ++e) {
-    const DriveFamily& family = *set.effects[e].family;
-    const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
-    if ((family.only_positive && !(b > 0.0)) || (family.plausible && !family.plausible(model_, b)))
-      return false;
-    if (family.shows && !family.shows(here, set.effects[e].shape)) return false;
-  }
+  if (!fit.can_be()) return false;
+  for (const DriveEffect& e : set.effects)
+    if (e.family->shows && !e.family->shows(here, e.shape)) return false;
   set.square = fit.residual_square();
   set.size = size_with_changes(set.effects);
   const DriveState state = state_of(fit);

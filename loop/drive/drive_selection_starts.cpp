@@ -104,7 +104,7 @@ void DriveSelection::tell_as_starts(DriveOutcome& outcome) {
     const DriveFit fit(here, value_, beside, FitRows::kTraining);
     const Eigen::VectorXd left = value_ - fit.explained_nm();
     const double square = fit.residual_square();
-    for (const double of : {double(forms::kDrag), double(forms::kFlanks), forms::kRwBySpeed}) {
+    for (const double of : {double(forms::kDrag), double(forms::kFlanks), forms::kBySpeed}) {
       FoundStarts best;
       double looks = 0.0;
       for (const double within : {1.5, 3.0, 6.0, 10.0, 16.0, 25.0, 40.0, 65.0, 100.0}) {
@@ -113,7 +113,7 @@ void DriveSelection::tell_as_starts(DriveOutcome& outcome) {
         for (std::size_t i = 0; i < table_.points.size(); ++i) {
           const BenchPoint& p = table_.points[i];
           if (p.fold == 0) continue;
-          const double x = forms::run_wave_nm(here, p, of) / p.sigma_nm;
+          const double x = forms::sized_loss_nm(here, p, of) / p.sigma_nm;
           start[static_cast<std::size_t>(p.row)] = {
               x * x, x * left[static_cast<Eigen::Index>(i)] / p.sigma_nm};
         }
@@ -129,7 +129,7 @@ void DriveSelection::tell_as_starts(DriveOutcome& outcome) {
       // (the first row alone, at any speed, is a settling that is told elsewhere)
       const bool at_first = best.shape.size() == forms::kFirstStart + 1 &&
                             best.shape[forms::kFirstStart] < 0.01 * static_cast<double>(rows);
-      if (best.gain < kLeastGain * square || (at_first && of != forms::kRwBySpeed)) continue;
+      if (best.gain < kLeastGain * square || (at_first && of != forms::kBySpeed)) continue;
       const double starts = static_cast<double>(best.shape.size() - forms::kFirstStart);
       std::vector<DriveEffect> effects = beside;
       effects.push_back({&family, best.shape});

@@ -6,7 +6,7 @@
 #include "trueflank/loop/drive/drive_selection.h"
 #include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/one_form.h"
-#include "trueflank/loop/drive/states_scan.h"
+#include "trueflank/loop/drive/scans/states_scan.h"
 
 // Levels in place of all that has no name: two of which every row may have either, or ever new ones
 // between which the run jumps.
@@ -77,8 +77,7 @@ void DriveSelection::tell_as_scattered_states(DriveOutcome& outcome) {
   constexpr double kClearly = 20.0, kMostLeft = 0.5;
   if (gains_power() && !losses_beside_gains_) return;
   const OneForm now = as_it_is(outcome);
-  const auto host = std::find_if(drive_library().begin(), drive_library().end(),
-                                 [](const DriveFamily& f) { return bool(f.shape_of_states); });
+  const DriveFamily* host = family_with(&DriveFamily::shape_of_states);
   OneForm best;
   double least = 1e300, noise = now.square / std::max(1.0, outcome.rows - now.size);
   for (const bool with_drag : {false, true}) {
@@ -91,12 +90,12 @@ void DriveSelection::tell_as_scattered_states(DriveOutcome& outcome) {
       states = scattered_states(here, left);
       if (states.changes.empty()) break;
       std::vector<DriveEffect> together = set.effects;
-      together.push_back({&*host, host->shape_of_states(states.what, states.changes)});
+      together.push_back({host, host->shape_of_states(states.what, states.changes)});
       const DriveFit fit(here, value_, together, FitRows::kTraining);
       left = value_ - fit.explained_nm() + fit.explained_nm(static_cast<int>(together.size()) - 1);
     }
     if (states.changes.empty()) continue;
-    set.effects.push_back({&*host, host->shape_of_states(states.what, states.changes)});
+    set.effects.push_back({host, host->shape_of_states(states.what, states.changes)});
     set.from.push_back(-1);
     if (!fits(set)) continue;
     set.size = size_of(set.effects);

@@ -267,12 +267,7 @@ void DriveSelection::prefer_plainer_names(DriveOutcome& outcome) {
 bool DriveSelection::is_possible(const DriveOutcome& outcome) const {
   const DriveContext here = context();
   const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
-  for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
-    const DriveFamily& family = *outcome.effects[e].family;
-    const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
-    if ((family.only_positive && !(b > 0.0)) || (family.plausible && !family.plausible(model_, b)))
-      return false;
-  }
+  if (!fit.can_be()) return false;
   const DriveState state = state_of(fit);
   return rubs_both_ways(state) && every_mesh_rubs(state);
 }

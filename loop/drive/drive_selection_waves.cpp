@@ -8,10 +8,10 @@
 #include "trueflank/base/units.h"
 #include "trueflank/loop/drive/drive_selection.h"
 #include "trueflank/loop/drive/effects/columns.h"
-#include "trueflank/loop/drive/effects/registry.h"
+#include "trueflank/loop/drive/forms_of_rows/forms_of_rows.h"
 #include "trueflank/loop/drive/one_form.h"
 #include "trueflank/loop/drive/place_profile.h"
-#include "trueflank/loop/drive/wave_scan.h"
+#include "trueflank/loop/drive/scans/wave_scan.h"
 
 // What the size of a wave follows, and whether it comes by the angle or by the clock.
 namespace trueflank::loop {
@@ -22,20 +22,14 @@ bool is_plain_wave(const DriveEffect& effect) {
   return effect.order() > 0.0 && effect.columns() == 2;
 }
 
-const DriveFamily& wave_family() {
-  const auto& library = drive_library();
-  const auto at = std::find_if(library.begin(), library.end(),
-                               [](const DriveFamily& f) { return f.is_wave_of_sizes; });
-  return *at;
-}
+const DriveFamily& wave_family() { return *family_with(&DriveFamily::is_wave_of_sizes); }
 
 /// Orders that the spectra of single files show: what lies otherwise in each may be nothing in all.
 std::vector<double> orders_of_files(const DriveContext& context, const Eigen::VectorXd& left) {
-  constexpr double kSure = 1e-4, kFewestRows = 24.0;
-  constexpr int kMostFiles = 5;
+  constexpr double kSure = 1e-4;
+  constexpr std::size_t kFewestRows = 24;
   std::vector<double> orders;
-  const int files = 1 + context.table.points.back().file;
-  for (int file = 0; file < files && files > 1 && files <= kMostFiles; ++file) {
+  for (const int file : drive_effects::files_to_ask(context.table, kFewestRows, 0)) {
     BenchTable own = without_rows(context.table);
     std::vector<Eigen::Index> rows;
     for (std::size_t i = 0; i < context.table.points.size(); ++i) {
@@ -43,7 +37,6 @@ std::vector<double> orders_of_files(const DriveContext& context, const Eigen::Ve
       own.points.push_back(context.table.points[i]);
       rows.push_back(static_cast<Eigen::Index>(i));
     }
-    if (static_cast<double>(rows.size()) < kFewestRows) continue;
     const LikeliestOrder line = WaveSpectra().likeliest_order(own, left(rows));
     if (line.p_value < kSure) orders.push_back(line.order);
   }
@@ -143,13 +136,7 @@ std::vector<DriveEffect> DriveSelection::waves_by_speed_or_load(
   constexpr double kFewestSpeeds = 6.0;
   const bool many_speeds = table_.levels[1] >= kFewestSpeeds && table_.least_speed_rpm > 0.0;
   const DriveContext here = context();
-  const auto family_with = [](const auto& is_it) -> const DriveFamily& {
-    return *std::find_if(drive_library().begin(), drive_library().end(), is_it);
-  };
-  const DriveFamily &resonant = family_with([](const auto&f) { return f.is_resonant_wave; }),
-                    &late = family_with([](const auto&f) { return bool(f.late_waves_at_order); }),
-                    &turned =
-                        family_with([](const auto&f) { return bool(f.turned_waves_at_order); });
+  const DriveFamily& resonant = *family_with(&DriveFamily::is_resonant_wave);
   if (!may_be_there(resonant)) return {};
   const Eigen::VectorXd left =
       value_ - DriveFit(here, value_, base, FitRows::kTraining).explained_nm();
@@ -167,29 +154,22 @@ std::vector<DriveEffect> DriveSelection::waves_by_speed_or_load(
   const auto likeliest_of = [&](const DriveFamily& family, const std::vector<DriveShape>& shapes) {
     Waves most{{&family, {}}, 0.0};
     for (const DriveShape& shape : shapes) {
-      Eigen::Matrix2d gram = Eigen::Matrix2d::Zero();
-      Eigen::Vector2d along = Eigen::Vector2d::Zero();
+      WaveProducts products;
       DriveShape sine = shape;
       sine[drive_effects::kWavePhase] = 0.25;
       for (std::size_t i = 0; i < table_.points.size(); ++i) {
         const BenchPoint& p = table_.points[i];
         if (p.fold == 0) continue;
-        Eigen::Vector2d c;
-        family.evaluate(here, p, shape, &c[0]);
-        family.evaluate(here, p, sine, &c[1]);
-        c /= p.sigma_nm;
-        gram += c * c.transpose();
-        along += c * (left[static_cast<Eigen::Index>(i)] / p.sigma_nm);
+        double at_zero = 0.0, at_quarter = 0.0;
+        family.evaluate(here, p, shape, &at_zero);
+        family.evaluate(here, p, sine, &at_quarter);
+        products.add(at_zero / p.sigma_nm, at_quarter / p.sigma_nm,
+                     left[static_cast<Eigen::Index>(i)] / p.sigma_nm);
       }
-      const double determinant = gram(0, 0) * gram(1, 1) - gram(0, 1) * gram(1, 0);
-      if (!(determinant > 1e-9 * gram(0, 0) * gram(1, 1))) continue;
-      const Eigen::Vector2d b{(gram(1, 1) * along[0] - gram(0, 1) * along[1]) / determinant,
-                              (gram(0, 0) * along[1] - gram(1, 0) * along[0]) / determinant};
-      if (const double gain = b.dot(along); gain > most.gain) {
-        most = {{&family, shape}, gain};
-        const double phase = std::atan2(b[1], b[0]) / kTwoPi;
-        most.effect.shape[drive_effects::kWavePhase] = phase - std::floor(phase);
-      }
+      const WaveAmounts wave = products.solved(1e-9 * products.cos_cos * products.sin_sin);
+      if (wave.gain <= most.gain) continue;
+      most = {{&family, shape}, wave.gain};
+      most.effect.shape[drive_effects::kWavePhase] = wave.phase() - std::floor(wave.phase());
     }
     return most;
   };
@@ -218,10 +198,11 @@ std::vector<DriveEffect> DriveSelection::waves_by_speed_or_load(
     for (const Waves& waves :
          {likeliest_of(wave_family(), squares), likeliest_of(resonant, resonances)})
       if (waves.gain > kClearlyMore * of_even) best.push_back(waves);
-    for (const Waves& moved :
-         {likeliest_of(late, late.late_waves_at_order(here, order, direction)),
-          likeliest_of(turned, turned.turned_waves_at_order(here, order, direction))})
+    for (const DriveFamily& family : drive_library()) {
+      if (!family.moved_waves_at_order) continue;
+      const Waves moved = likeliest_of(family, family.moved_waves_at_order(here, order, direction));
       if (moved.gain > of_even + kSurelyMore * (square - moved.gain) / rows) best.push_back(moved);
+    }
   }
   std::vector<DriveEffect> waves;
   for (const Waves& wave : best) {
@@ -241,12 +222,7 @@ std::vector<DriveEffect> DriveSelection::waves_by_speed_or_load(
 void DriveSelection::add_waves_of_parts(const std::vector<DriveEffect>& base,
                                         std::vector<WholeForm>& forms) const {
   if (!table_.has_angle) return;
-  const auto family_of = [](bool DriveFamily::*which) {
-    return &*std::find_if(drive_library().begin(), drive_library().end(),
-                          [&](const DriveFamily& f) { return f.*which; });
-  };
-  const DriveFamily *sized = family_of(&DriveFamily::is_wave_of_sizes),
-                    *of_part = family_of(&DriveFamily::is_wave_of_part);
+  const DriveFamily *sized = &wave_family(), *of_part = family_with(&DriveFamily::is_wave_of_part);
   if (!may_be_there(*sized)) return;
   const DriveContext here = context();
   const DriveFit fit(here, value_, base, FitRows::kTraining);

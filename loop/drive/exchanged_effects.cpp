@@ -178,13 +178,7 @@ class Exchange {
   [[nodiscard]] bool possible(const std::vector<DriveEffect>& with) const {
     const DriveContext here = selection_.context();
     const DriveFit fit(here, selection_.value_nm(), with, FitRows::kAll);
-    for (std::size_t e = 0; e < with.size(); ++e) {
-      const DriveFamily& family = *with[e].family;
-      const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
-      if ((family.only_positive && !(b > 0.0)) ||
-          (family.plausible && !family.plausible(selection_.model(), b)))
-        return false;
-    }
+    if (!fit.can_be()) return false;
     const DriveState state = DriveSelection::state_of(fit);
     return selection_.rubs_both_ways(state) && selection_.every_mesh_rubs(state);
   }

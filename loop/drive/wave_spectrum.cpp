@@ -277,6 +277,14 @@ LikeliestOrder WaveSpectra::likeliest_order(const BenchTable& table, const Eigen
   return found;
 }
 
+WaveAmounts WaveProducts::solved(double least_determinant) const {
+  const double determinant = cos_cos * sin_sin - cos_sin * cos_sin;
+  if (!(determinant > least_determinant)) return {};
+  const double cos = (sin_sin * cos_left - cos_sin * sin_left) / determinant,
+               sin = (cos_cos * sin_left - cos_sin * cos_left) / determinant;
+  return {cos, sin, cos * cos_left + sin * sin_left};
+}
+
 std::vector<std::complex<double>> line_sums(const std::vector<double>& angle_rad,
                                             const std::vector<double>& size, double first,
                                             double step, int lines) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <complex>
 #include <memory>
 #include <vector>
@@ -34,6 +35,27 @@ class WaveSpectra {
  private:
   struct Kept;
   std::unique_ptr<Kept> kept_;
+};
+
+/// Amounts of a wave's two columns, and what they take off.
+struct WaveAmounts {
+  double cos = 0.0, sin = 0.0, gain = 0.0;
+  /// -1/2 ... 1/2 of a period.
+  [[nodiscard]] double phase() const { return std::atan2(sin, cos) / kTwoPi; }
+};
+/// Sums over rows of the products of a wave's two columns, and of each with what is left.
+struct WaveProducts {
+  double cos_cos = 0.0, cos_sin = 0.0, sin_sin = 0.0, cos_left = 0.0, sin_left = 0.0;
+  void add(double cos, double sin, double left) {
+    cos_cos += cos * cos;
+    cos_sin += cos * sin;
+    sin_sin += sin * sin;
+    cos_left += cos * left;
+    sin_left += sin * left;
+  }
+  /// By least squares; nothing where the columns are so nearly one that their determinant is no
+  /// more than this.
+  [[nodiscard]] WaveAmounts solved(double least_determinant = 0.0) const;
 };
 
 /// Sums of size exp(i (first + step k) angle) over all rows, k = 0 ... lines - 1.

@@ -18,7 +18,7 @@ DriveFamily bearing_load_friction() {
     return (p.forward ? context.efficiency(p) : 1.0) * context.load_nm(p);
   });
   // Rolling bearings lose far less of what they carry; plain ones about so much.
-  f.plausible = [](const DriveModel&, double share) { return share < 0.05; };
+  f.plausible = [](const DriveModel&, const DriveShape&, double share) { return share < 0.05; };
   f.calibrate = [](CalibratedLosses& c, const DriveShape&, double b) {
     c.losses.bearing_load_share += b;
     return true;

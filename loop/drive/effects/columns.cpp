@@ -79,7 +79,7 @@ std::vector<DriveReference> mean_temperature(const DriveContext& context) {
   return {{"reference_c", context.table.mean_temperature_c}};
 }
 
-bool can_be_friction(const DriveModel& model, double change) {
+bool can_be_friction(const DriveModel& model, const DriveShape&, double change) {
   return model.friction + change > 0.0 && model.friction + change < kMostFriction;
 }
 
@@ -125,6 +125,23 @@ const char* name_of_quantity(double over) {
 double in_direction(const DriveContext& context, const BenchPoint& p, double which) {
   if (which == kAsItReads) return context.model.ratio * context.misread(p, false);
   return is_of_direction(p, which) ? -context.lever(p) : 0.0;
+}
+
+double sized_loss_nm(const DriveContext& context, const BenchPoint& p, double of) {
+  return of == kBySpeed ? -context.lever(p) * p.speed_rpm / context.table.most_speed_rpm
+                        : changed_nm(context, p, of);
+}
+
+std::string in_proportion(double of) {
+  return of == kBySpeed          ? " in proportion to the speed"
+         : of == double(kFlanks) ? " in proportion to the load"
+                                 : "";
+}
+
+std::string at_the_largest(double of) {
+  return of == kBySpeed          ? " at the largest speed"
+         : of == double(kFlanks) ? " at the largest load"
+                                 : "";
 }
 
 double true_share(const DriveContext& context, const BenchPoint& p) {

@@ -32,7 +32,7 @@ auto loss(Loss torque) {
 /// flanks but a scale of its torques, or a loss elsewhere.
 inline constexpr double kMostFriction = 0.4;
 /// True where the design's friction with this change can be one of flanks that rub.
-[[nodiscard]] bool can_be_friction(const DriveModel& model, double change);
+[[nodiscard]] bool can_be_friction(const DriveModel& model, const DriveShape& shape, double change);
 
 /// "in a wave of order 0.25 per input turn (carrier)".
 [[nodiscard]] std::string wave_in_words(const DriveModel& model, double order);
@@ -87,6 +87,14 @@ enum What { kFlanks, kDrag, kOutputReads, kOutputGain };
 /// Its change of the driven torque [N m] for 1 N m at the input; of the flanks and of a gain at the
 /// largest load.
 [[nodiscard]] double changed_nm(const DriveContext& context, const BenchPoint& p, double what);
+/// What the size of a loss follows: What, or the speed.
+inline constexpr double kBySpeed = 4.0;
+/// Change of the driven torque [N m] for 1 N m at the input, at the largest load or speed.
+[[nodiscard]] double sized_loss_nm(const DriveContext& context, const BenchPoint& p, double of);
+/// " in proportion to the speed"; empty of what is the same everywhere.
+[[nodiscard]] std::string in_proportion(double of);
+/// " at the largest speed"; empty of what is the same everywhere.
+[[nodiscard]] std::string at_the_largest(double of);
 /// The output's torque over what the largest load makes of it in the lossless drive. Backward it
 /// drives, and may be read wrong itself: the input's torque says what it was.
 [[nodiscard]] double true_share(const DriveContext& context, const BenchPoint& p);

@@ -32,7 +32,9 @@ DriveFamily direction_dependent_friction() {
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape&, double* c) {
     c[0] = context.friction_slope(p) * (p.forward ? -0.5 : 0.5);
   };
-  f.plausible = [](const DriveModel&, double difference) { return std::abs(difference) < kMostFriction; };
+  f.plausible = [](const DriveModel&, const DriveShape&, double difference) {
+    return std::abs(difference) < kMostFriction;
+  };
   f.hides_in_gains = true;
   f.differs_by_direction = true;
   f.into_state = [](DriveState& state, const DriveShape&, double b) { state.difference = b; };

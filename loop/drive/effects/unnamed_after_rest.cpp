@@ -5,7 +5,7 @@
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/effects/registry.h"
-#include "trueflank/loop/drive/rest_scan.h"
+#include "trueflank/loop/drive/scans/rest_scan.h"
 
 // What dies away after every rest: a seal that sticks, grease that is run in anew. The drive stands
 // still where it changes its direction and where a file begins; other rests are seen by coming

@@ -67,7 +67,7 @@ DriveFamily unnamed_cap() {
                             {0.0005, 0.1, kLeastCap * most, kMostCap * most, true});
   };
   // All that lies above is missing: a part of it is a gain that changes.
-  f.plausible = [](const DriveModel&, double share) { return share > 0.8 && share < 1.25; };
+  f.plausible = [](const DriveModel&, const DriveShape&, double share) { return share > 0.8 && share < 1.25; };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
                   double* c) {
     c[0] = p.forward ? std::min(0.0, s[0] - given_nm(context, p)) : 0.0;

@@ -18,37 +18,31 @@ namespace {
 /// Which direction (1 forward, 2 backward), what makes the loss larger, and the speed [of the
 /// largest] by which it fades to a third; the family of what does not fade has no such speed.
 enum OneDirectionValue : std::size_t { kOdDirection, kOdOf, kOdFades };
-enum OneDirectionOf { kOdOfLoad, kOdOfSpeed, kOdOfNothing };
 
 std::vector<DriveShape> od_shapes(const DriveContext& context, bool fades) {
   std::vector<DriveShape> shapes;
   if (!context.table.has(true) || !context.table.has(false)) return shapes;
   for (const double direction : {1.0, 2.0}) {
     if (!fades) {
-      shapes.push_back({direction, double(kOdOfLoad)});
-      if (context.table.levels[1] > 2) shapes.push_back({direction, double(kOdOfSpeed)});
+      shapes.push_back({direction, double(kFlanks)});
+      if (context.table.levels[1] > 2) shapes.push_back({direction, kBySpeed});
       continue;
     }
     if (context.table.levels[1] < 5) continue;
-    for (const double of : {double(kOdOfLoad), double(kOdOfNothing)})
+    for (const double of : {double(kFlanks), double(kDrag)})
       for (const double speed : {0.03, 0.05, 0.08, 0.13, 0.2, 0.3})
         shapes.push_back({direction, of, speed});
   }
   return shapes;
 }
 
-std::string od_told(const DriveContext& context, const DriveShape& s, double amount,
+std::string od_told(const DriveContext&, const DriveShape& s, double amount,
                     const std::vector<Parameter>& figures) {
   const bool fades = s.size() > kOdFades;
-  const std::string of = s[kOdOf] == double(kOdOfLoad)    ? " in proportion to the load"
-                         : s[kOdOf] == double(kOdOfSpeed) ? " in proportion to the speed"
-                                                          : "",
-                    at = s[kOdOf] == double(kOdOfLoad)    ? " at the largest load"
-                         : s[kOdOf] == double(kOdOfSpeed) ? " at the largest speed"
-                                                          : "";
-  return "a loss at the input" + of + direction_in_words(s[kOdDirection]) + ", and not while the " +
-         (s[kOdDirection] == 1.0 ? "output" : "input") +
-         " drives: " + with_interval(figures[0], amount > 0.0 ? " N m more" : " N m less") + at +
+  return "a loss at the input" + in_proportion(s[kOdOf]) + direction_in_words(s[kOdDirection]) +
+         ", and not while the " + (s[kOdDirection] == 1.0 ? "output" : "input") +
+         " drives: " + with_interval(figures[0], amount > 0.0 ? " N m more" : " N m less") +
+         at_the_largest(s[kOdOf]) +
          (fades ? " from rest, to a third of it at " + with_interval(figures[1], " rpm") : "") +
          " (flanks that are rough or dry on the side that carries then, a seal or a part that "
          "works one way?)";
@@ -68,7 +62,9 @@ DriveFamily one_direction(bool fades) {
   }
   f.shapes = no_shapes;
   f.whole_shapes = [fades](const DriveContext& context) { return od_shapes(context, fades); };
-  f.kind = [](const DriveShape& s) { return static_cast<int>(4.0 * s[kOdDirection] + s[kOdOf]); };
+  f.kind = [](const DriveShape& s) {
+    return static_cast<int>((1.0 + kBySpeed) * s[kOdDirection] + s[kOdOf]);
+  };
   f.all_shapes = [](const DriveContext& context, const DriveShape* about) {
     std::vector<DriveShape> shapes;
     if (about == nullptr) return shapes;
@@ -81,12 +77,10 @@ DriveFamily one_direction(bool fades) {
   };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
                   double* c) {
-    const double fast = p.speed_rpm / context.table.most_speed_rpm,
-                 fading = s.size() > kOdFades ? std::exp(-fast / s[kOdFades]) : 1.0;
-    c[0] = !is_of_direction(p, s[kOdDirection]) ? 0.0
-           : s[kOdOf] == double(kOdOfLoad)      ? fading * changed_nm(context, p, double(kFlanks))
-                                           : fading * in_direction(context, p, s[kOdDirection]) *
-                                                 (s[kOdOf] == double(kOdOfSpeed) ? fast : 1.0);
+    const double fading = s.size() > kOdFades
+                              ? std::exp(-p.speed_rpm / context.table.most_speed_rpm / s[kOdFades])
+                              : 1.0;
+    c[0] = is_of_direction(p, s[kOdDirection]) ? fading * sized_loss_nm(context, p, s[kOdOf]) : 0.0;
   };
   f.figures = [](const DriveContext& context, const DriveShape& s, double amount) {
     std::vector<Parameter> figures{figure_of("amplitude_nm", std::abs(amount))};
@@ -99,8 +93,8 @@ DriveFamily one_direction(bool fades) {
     return std::string("that is there") + direction_in_words(s[kOdDirection]) + " alone";
   };
   f.term_shapes = [](const DriveShape& s) {
-    return std::vector<DriveShape>{{s[kOdOf] == double(kOdOfLoad) ? 1.0 : 0.0,
-                                    s[kOdOf] == double(kOdOfLoad) ? 0.0 : 1.0, 0.0, 0.0, 1.0}};
+    return std::vector<DriveShape>{{s[kOdOf] == double(kFlanks) ? 1.0 : 0.0,
+                                    s[kOdOf] == double(kFlanks) ? 0.0 : 1.0, 0.0, 0.0, 1.0}};
   };
   return f;
 }

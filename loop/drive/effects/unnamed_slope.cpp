@@ -117,7 +117,7 @@ DriveFamily unnamed_flanks_slope() {
                   double* c) {
     c[0] = context.friction_slope(p) * along(s, context.share_of_range(p, s[kSlopeOver]));
   };
-  f.plausible = [](const DriveModel& model, double amount) {
+  f.plausible = [](const DriveModel& model, const DriveShape&, double amount) {
     return std::abs(amount) < 2.0 * model.friction || std::abs(amount) < 0.5 * kMostFriction;
   };
   f.figures = [](const DriveContext& context, const DriveShape& s, double amount) {

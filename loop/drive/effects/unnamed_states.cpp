@@ -6,7 +6,7 @@
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/effects/registry.h"
-#include "trueflank/loop/drive/states_scan.h"
+#include "trueflank/loop/drive/scans/states_scan.h"
 
 // A loss that is there at times and at times not: a cap or a seal that is loose, a brake that
 // drags now and then. A scan of the run says when.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <string>
 #include <vector>
 
 #include "trueflank/loop/drive/effects/columns.h"
@@ -31,8 +33,6 @@ enum PitValue : std::size_t { kPitOrder, kPitSlip, kPitCentre, kPitHalf, kPitSha
 /// A wave over the rows of the run. The phase is that of the middle row, in periods; the last
 /// period is exp(stretch) times as long as the first. The plain family has no stretch.
 enum RunWaveValue : std::size_t { kRwTimes, kRwPhase, kRwOf, kRwFrom, kRwStretch };
-/// What the size of a wave over the run follows: What, or the speed.
-inline constexpr double kRwBySpeed = 4.0;
 enum RunWaveFrom { kRwToEitherSide, kRwFromNothing };
 /// Periods from the middle of the run on.
 [[nodiscard]] double periods_of_run(double share, double times, double stretch);
@@ -40,7 +40,12 @@ enum RunWaveFrom { kRwToEitherSide, kRwFromNothing };
 [[nodiscard]] double share_of_run(const BenchTable& table, const BenchPoint& p);
 /// What starts at rows of the run, in growing order, and dies away within so many rows.
 enum StartsValue : std::size_t { kStartsOf, kStartsRows, kFirstStart };
-/// Change of the driven torque [N m] for 1 N m at the input, at the largest load or speed.
-[[nodiscard]] double run_wave_nm(const DriveContext& context, const BenchPoint& p, double of);
+
+/// Of more files than these none is asked by itself.
+inline constexpr int kMostFilesAsked = 5;
+/// Files of which each has so many rows at least and leaves the others so many; none of one file.
+[[nodiscard]] std::vector<int> files_to_ask(const BenchTable& table, std::size_t fewest,
+                                            std::size_t fewest_of_others);
+[[nodiscard]] std::string name_of_file(const BenchTable& table, double number);
 
 }  // namespace trueflank::loop::drive_effects

@@ -7,18 +7,35 @@
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/drive/effects/parts/parts_of_ranges.h"
 #include "trueflank/loop/drive/effects/registry.h"
+#include "trueflank/loop/drive/forms_of_rows/forms_of_rows.h"
 
 // What one of several files has more than the others: another day, another set-up.
 namespace trueflank::loop::drive_effects {
+
+std::vector<int> files_to_ask(const BenchTable& table, std::size_t fewest,
+                              std::size_t fewest_of_others) {
+  std::vector<int> asked;
+  const int files = 1 + table.points.back().file;
+  if (files < 2 || files > kMostFilesAsked) return asked;
+  for (int file = 0; file < files; ++file) {
+    const auto rows = static_cast<std::size_t>(
+        std::count_if(table.points.begin(), table.points.end(),
+                      [&](const BenchPoint& p) { return p.file == file; }));
+    if (rows >= fewest && table.points.size() - rows >= fewest_of_others) asked.push_back(file);
+  }
+  return asked;
+}
+
+std::string name_of_file(const BenchTable& table, double number) {
+  const auto file = static_cast<std::size_t>(number);
+  return file < table.files.size() ? table.files[file] : std::to_string(file + 1);
+}
 
 namespace {
 
 enum ByFile : std::size_t { kFileNumber, kFileOf };
 /// A loss is told of the file that has it: "less" goes after "more in the other one".
 enum class Told { kMoreLost, kLessLost, kReading };
-
-constexpr int kMostFilesAsked = 5;
-constexpr std::size_t kFewestOfAFile = 6;
 
 /// What of "this row is of this file" no plain course over direction, load, speed and temperature
 /// says as well, 0 ... 1.
@@ -50,25 +67,13 @@ double file_stands_out(const BenchTable& table, int file) {
 
 std::vector<DriveShape> file_shapes(const DriveContext& context, bool reads) {
   constexpr double kLeastOfItsOwn = 0.08;
+  constexpr std::size_t kFewestOfAFile = 6;
   std::vector<DriveShape> shapes;
-  const BenchTable& table = context.table;
-  const int files = 1 + table.points.back().file;
-  if (files < 2 || files > kMostFilesAsked) return shapes;
-  for (int file = 0; file < files; ++file) {
-    const auto rows = static_cast<std::size_t>(
-        std::count_if(table.points.begin(), table.points.end(),
-                      [&](const BenchPoint& p) { return p.file == file; }));
-    if (rows < kFewestOfAFile || table.points.size() - rows < kFewestOfAFile ||
-        file_stands_out(table, file) < kLeastOfItsOwn)
-      continue;
+  for (const int file : files_to_ask(context.table, kFewestOfAFile, kFewestOfAFile)) {
+    if (file_stands_out(context.table, file) < kLeastOfItsOwn) continue;
     for (const double what : kinds_of(reads)) shapes.push_back({static_cast<double>(file), what});
   }
   return shapes;
-}
-
-std::string name_of_file(const BenchTable& table, double number) {
-  const auto file = static_cast<std::size_t>(number);
-  return file < table.files.size() ? table.files[file] : std::to_string(file + 1);
 }
 
 /// Where the output's torque of one file is as much less or more as another unit makes it.
@@ -115,7 +120,7 @@ DriveFamily by_file(Told told) {
   f.dearer = kDearerForms + (told == Told::kLessLost ? kDearerIfLess : 0.0);
   f.only_positive = told == Told::kMoreLost;
   if (told == Told::kLessLost)
-    f.plausible = [](const DriveModel&, double amount) { return amount < 0.0; };
+    f.plausible = [](const DriveModel&, const DriveShape&, double amount) { return amount < 0.0; };
   f.shapes = no_shapes;
   f.whole_shapes = [reads](const DriveContext& context) { return file_shapes(context, reads); };
   f.kind = [](const DriveShape& s) {

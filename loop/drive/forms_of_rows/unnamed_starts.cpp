@@ -22,12 +22,6 @@ int line_of_row(const BenchTable& table, double row) {
 
 std::string starts_told(const DriveContext& context, const DriveShape& s, double amount,
                         const std::vector<Parameter>& figures) {
-  const std::string with = s[kStartsOf] == kRwBySpeed        ? " in proportion to the speed"
-                           : s[kStartsOf] == double(kFlanks) ? " in proportion to the load"
-                                                             : "",
-                    at = s[kStartsOf] == kRwBySpeed        ? " at the largest speed"
-                         : s[kStartsOf] == double(kFlanks) ? " at the largest load"
-                                                           : "";
   std::string lines;
   for (std::size_t k = kFirstStart; k < s.size(); ++k)
     lines += (k == kFirstStart    ? ""
@@ -36,13 +30,13 @@ std::string starts_told(const DriveContext& context, const DriveShape& s, double
              std::to_string(line_of_row(context.table, s[k]));
   const bool several = s.size() > kFirstStart + 1,
              at_first = !several && s[kFirstStart] <= context.table.every_row().front().row;
-  return "a loss at the input" + with +
+  return "a loss at the input" + in_proportion(s[kStartsOf]) +
          (at_first ? " that dies away from the start of the run on: "
                    : " that starts at line" + std::string(several ? "s " : " ") + lines +
                          " and dies away: ") +
-         with_interval(figures[0], amount > 0.0 ? " N m more" : " N m less") + at +
-         (several ? " at each" : " at first") + ", gone to a third after " +
-         with_interval(figures[1], " rows") +
+         with_interval(figures[0], amount > 0.0 ? " N m more" : " N m less") +
+         at_the_largest(s[kStartsOf]) + (several ? " at each" : " at first") +
+         ", gone to a third after " + with_interval(figures[1], " rows") +
          (at_first ? " (a cold start, grease that is run in?)"
                    : " (fresh grease or oil, a stop, a seal that was moved?)");
 }
@@ -92,8 +86,9 @@ DriveFamily unnamed_starts() {
     double since = -1.0;
     for (std::size_t k = kFirstStart; k < s.size(); ++k)
       if (p.row >= s[k]) since = p.row - s[k];
-    c[0] = since < 0.0 ? 0.0
-                       : std::exp(-since / s[kStartsRows]) * run_wave_nm(context, p, s[kStartsOf]);
+    c[0] = since < 0.0
+               ? 0.0
+               : std::exp(-since / s[kStartsRows]) * sized_loss_nm(context, p, s[kStartsOf]);
   };
   f.figures = [](const DriveContext& context, const DriveShape& s, double amount) {
     std::vector<Parameter> figures{figure_of("amplitude_nm", std::abs(amount)),

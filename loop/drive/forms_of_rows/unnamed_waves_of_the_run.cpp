@@ -24,11 +24,6 @@ double share_of_run(const BenchTable& table, const BenchPoint& p) {
   return p.row / std::max(1.0, static_cast<double>(table.every_row().back().row));
 }
 
-double run_wave_nm(const DriveContext& context, const BenchPoint& p, double of) {
-  return of == kRwBySpeed ? -context.lever(p) * p.speed_rpm / context.table.most_speed_rpm
-                          : changed_nm(context, p, of);
-}
-
 namespace {
 
 double run_wave_stretch(const DriveShape& s) { return s.size() > kRwStretch ? s[kRwStretch] : 0.0; }
@@ -58,26 +53,20 @@ int line_of_most(const DriveContext& context, const DriveShape& s, double amount
 
 std::string run_wave_told(const DriveContext& context, const DriveShape& s, double amount,
                           const std::vector<Parameter>& figures) {
-  const std::string with = s[kRwOf] == kRwBySpeed        ? " in proportion to the speed"
-                           : s[kRwOf] == double(kFlanks) ? " in proportion to the load"
-                                                         : "",
-                    at = s[kRwOf] == kRwBySpeed        ? " at the largest speed"
-                         : s[kRwOf] == double(kFlanks) ? " at the largest load"
-                                                       : "",
-                    every = s.size() > kRwStretch
-                                ? "in waves whose period changes evenly from " +
-                                      with_interval(figures[1], " rows") +
-                                      " at the start of the run to " +
-                                      with_interval(figures[2], " rows") + " at its end"
-                                : "in a wave every " + with_interval(figures[1], " rows");
+  const std::string every =
+      s.size() > kRwStretch
+          ? "in waves whose period changes evenly from " + with_interval(figures[1], " rows") +
+                " at the start of the run to " + with_interval(figures[2], " rows") + " at its end"
+          : "in a wave every " + with_interval(figures[1], " rows");
   const std::string size = s[kRwFrom] == double(kRwFromNothing)
                                ? "from nothing to " + with_interval(figures[0], " N m") +
                                      (amount > 0.0 ? " more" : " less")
                                : with_interval(figures[0], " N m") + " to either side";
   constexpr double kQuick = 12.0;  // rows to a period
   const bool quick = s.size() <= kRwStretch && rows_to_a_period(context.table, s, false) < kQuick;
-  return "a loss at the input" + with + " that comes and goes over the run, " + every + ": " +
-         size + at + ", most first at line " + std::to_string(line_of_most(context, s, amount)) +
+  return "a loss at the input" + in_proportion(s[kRwOf]) + " that comes and goes over the run, " +
+         every + ": " + size + at_the_largest(s[kRwOf]) + ", most first at line " +
+         std::to_string(line_of_most(context, s, amount)) +
          (quick ? " (a controller that hunts, or what is faster than the rows: hum of the mains?)"
                 : " (a room that warms and cools, a pump or a fan that comes and goes?)");
 }
@@ -133,7 +122,7 @@ DriveFamily waves_of_the_run(bool stretches) {
         kTwoPi * (periods_of_run(share_of_run(context.table, p), s[kRwTimes], run_wave_stretch(s)) -
                   s[kRwPhase]));
     c[0] = (s[kRwFrom] == double(kRwFromNothing) ? 0.5 + 0.5 * wave : wave) *
-           run_wave_nm(context, p, s[kRwOf]);
+           sized_loss_nm(context, p, s[kRwOf]);
   };
   f.figures = [](const DriveContext& context, const DriveShape& s, double amount) {
     std::vector<Parameter> figures{

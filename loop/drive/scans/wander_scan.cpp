@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/drive/wander_scan.h"
+#include "trueflank/loop/drive/scans/wander_scan.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

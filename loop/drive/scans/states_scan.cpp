@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/drive/states_scan.h"
+#include "trueflank/loop/drive/scans/states_scan.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/drive/wave_scan.h"
+#include "trueflank/loop/drive/scans/wave_scan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -342,13 +342,10 @@ class PartScan {
     return single * static_cast<double>(looks_at(wave.kind)) < kSure;
   }
 
-  /// What a wave of this kind takes off, and its phase in cycles.
-  struct Fitted {
-    double gain = 0.0, phase = 0.0;
-  };
-  [[nodiscard]] Fitted fitted(const PartKind& kind, double order, double place,
-                              const Parted* parted) const {
-    double c = 0.0, s = 0.0, cc = 0.0, cs = 0.0, ss = 0.0;
+  /// What a wave of this kind takes off, and its amounts.
+  [[nodiscard]] WaveAmounts fitted(const PartKind& kind, double order, double place,
+                                   const Parted* parted) const {
+    WaveProducts products;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const PartRow& row = rows_[i];
       double weight = row.lever * row.size(kind.how);
@@ -362,18 +359,10 @@ class PartScan {
         else if (above != (kind.side == kWaveAbove))
           continue;
       }
-      const double x = weight * std::cos(order * row.angle_rad),
-                   y = weight * std::sin(order * row.angle_rad);
-      c += x * row.left;
-      s += y * row.left;
-      cc += x * x;
-      cs += x * y;
-      ss += y * y;
+      products.add(weight * std::cos(order * row.angle_rad),
+                   weight * std::sin(order * row.angle_rad), row.left);
     }
-    const double determinant = cc * ss - cs * cs;
-    if (!(determinant > 1e-6 * cc * ss)) return {};
-    const double a = (c * ss - s * cs) / determinant, b = (s * cc - c * cs) / determinant;
-    return {a * c + b * s, std::atan2(b, a) / kTwoPi};
+    return products.solved(1e-6 * products.cos_cos * products.sin_sin);
   }
 
   [[nodiscard]] PartWave refined(const PartCandidate& wave) const {
@@ -382,24 +371,24 @@ class PartScan {
                                  [&](const Parted& p) { return p.over == kind.over; });
     const Parted* parted = at == parted_.end() ? nullptr : &*at;
     double order = wave.order, place = wave.place;
-    Fitted best = fitted(kind, order, place, parted);
+    WaveAmounts best = fitted(kind, order, place, parted);
     for (int round = 0; round < 2; ++round) {
       for (double by = 0.5 * step_; !wrapped_ && by > 0.01 * step_; by *= 0.5) {
         const double middle = order;
         for (const double other : {middle - by, middle + by})
-          if (const Fitted now = fitted(kind, other, place, parted); now.gain > best.gain) {
+          if (const WaveAmounts now = fitted(kind, other, place, parted); now.gain > best.gain) {
             best = now;
             order = other;
           }
       }
       if (parted == nullptr) break;
       for (const double other : places_about(*parted, place))
-        if (const Fitted now = fitted(kind, order, other, parted); now.gain > best.gain) {
+        if (const WaveAmounts now = fitted(kind, order, other, parted); now.gain > best.gain) {
           best = now;
           place = other;
         }
     }
-    PartWave found{.shape = {order, kind.how, kind.direction, best.phase},
+    PartWave found{.shape = {order, kind.how, kind.direction, best.phase()},
                    .is_of_part = kind.has_a_place()};
     if (found.is_of_part)
       found.shape.insert(found.shape.end(), {kind.over, place, double(kind.side)});
