@@ -151,6 +151,7 @@ TEST(Clampings, OfOneFileWhereNamesWouldTakeEachOtherBack) {
     ASSERT_EQ(result.effects.size(), 2U) << seed << ": " << list(result);
     for (const loop::FoundEffect& found : result.effects) {
       const bool left = found.flank == "left";
+      ASSERT_EQ(found.terms.size(), 1U) << seed << ": " << list(result);
       EXPECT_NEAR(found.terms.front().amplitude(), left ? 7.0 : 4.5, 0.4) << list(result);
       EXPECT_NE(found.sentence.find("pitch wave once per turn"), std::string::npos)
           << found.sentence;

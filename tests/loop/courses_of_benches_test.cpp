@@ -116,27 +116,32 @@ TEST(CoursesOfBenches, AnOutputThatReadsNoFurtherIsNoLoss) {
     DrawnBench bench = any_rows(seed, false, 220);
     bench.noise_input_nm *= 0.2;
     const double cap = bench.most_output_nm * bench.between(0.7, 0.9);
+    double most = 0.0;
+    for (const DrawnRow& r : bench.rows) most = std::max(most, r.output_nm);
+    const double missed_nm = (most - cap) / bench.ratio;  // at the input
     const auto closed = loop::close_drive_loop(
         bench.model(),
         bench.data([](const DrawnRow&) { return 0.0; }, 0.1,
                    [&](const DrawnRow& r) { return std::min(0.0, cap - r.output_nm); }));
     answers.add(seed, "no more than " + std::to_string(cap) + " N m", closed,
-                leaves_noise(closed, bench) && is_told_once(closed, "most_it_reads_nm", cap));
+                leaves_noise(closed, bench) && is_told_once(closed, "most_it_reads_nm", cap) &&
+                    is_about(closed->result.effects.front(), "amplitude_nm", missed_nm, 0.1) &&
+                    std::abs(closed->result.effects.front().terms.front().amplitude() - missed_nm) <
+                        0.1 * missed_nm);
   });
 }
 
 TEST(CoursesOfBenches, ALossOfOneDirectionIsNoFrictionThatAScaleTakesBack) {
   expect_all(11100, 4, [](Answers& answers, std::uint64_t seed) {
     DrawnBench bench = any_rows(seed, true, 220);
-    const double size = bench.scatter_nm() * bench.between(8.0, 14.0);
+    // (more than flanks can be, which have the name of a friction that differs between directions)
+    const double size = bench.scatter_nm() * bench.between(30.0, 45.0);
     const auto closed = loop::close_drive_loop(bench.model(), bench.data([&](const DrawnRow& r) {
       return r.forward ? 0.0 : size * r.share;
     }));
-    // (what flanks can be has the name of a friction that differs between the directions)
     answers.add(seed, "backward by the load", closed,
-                leaves_noise(closed, bench) && !says(closed, "torque_scale") &&
-                    (is_told_once(closed, "amplitude_nm", size) ||
-                     says(closed, "direction_dependent_friction")));
+                leaves_noise(closed, bench) && is_told_once(closed, "amplitude_nm", size) &&
+                    says(closed, "and not while the input drives"));
   });
 }
 
@@ -200,18 +205,31 @@ TEST(CoursesOfBenches, AFileInPoundFeetIsSaidToBe) {
   });
 }
 
+/// A loss of the fast rows alone, which are one in so many, in a bench of 26.
+void adds_fast_rows(Answers& answers, std::uint64_t seed, int every, double least) {
+  DrawnBench bench = any_rows(seed, false, 26);
+  const double size = bench.scatter_nm() * bench.between(least, 18.0);
+  for (DrawnRow& r : bench.rows)
+    r.rpm = r.row % every == 0 ? bench.between(1700.0, 2800.0) : bench.between(40.0, 700.0);
+  const auto closed = loop::close_drive_loop(bench.model(), bench.data([&](const DrawnRow& r) {
+    return size * std::max(0.0, r.rpm - 900.0) / 1900.0;
+  }));
+  answers.add(seed, "few fast rows", closed,
+              closed && closed->result.effects.size() == 1 && says(closed, "speed"));
+}
+
+/// (six of 26; their signs alone tell one such bench of 24)
 TEST(FewRowsOnBenches, ALossThatFewFastRowsShowIsTold) {
-  expect_all(11500, 4, [](Answers& answers, std::uint64_t seed) {
-    DrawnBench bench = any_rows(seed, false, 26);
-    const double size = bench.scatter_nm() * bench.between(12.0, 18.0);
-    const auto closed = loop::close_drive_loop(bench.model(), bench.data([&](const DrawnRow& r) {
-      return size * std::max(0.0, r.rpm - 900.0) / 1900.0;
-    }));
-    const auto fast = std::count_if(bench.rows.begin(), bench.rows.end(),
-                                    [](const DrawnRow& r) { return r.rpm > 1500.0; });
-    answers.add(seed, std::to_string(fast) + " fast rows", closed,
-                closed && (closed->result.effects.size() == 1 || fast < 4));
-  });
+  Answers answers;
+  for (std::uint64_t seed = 11500; seed < 11524; ++seed) adds_fast_rows(answers, seed, 5, 12.0);
+  EXPECT_GE(answers.right, answers.seldom_fewer(0.95)) << answers.text();
+}
+
+/// (the signs of five fast rows show a friction that falls with the speed)
+TEST(FewRowsOnBenches, ANameThatLeavesFarMoreGivesWay) {
+  Answers answers;
+  adds_fast_rows(answers, 11506, 6, 8.0);
+  EXPECT_EQ(answers.right, 1) << answers.text();
 }
 
 TEST(FewRowsOnBenches, OfNoiseWithLongTailsNothingIsTold) {
@@ -229,7 +247,7 @@ TEST(FewRowsOnBenches, OfNoiseWithLongTailsNothingIsTold) {
         loop::close_drive_loop(bench.model(), bench.data([](const DrawnRow&) { return 0.0; }));
     answers.add(seed, "nothing", closed, closed && closed->result.effects.empty());
   }
-  EXPECT_GE(answers.right, answers.seldom_fewer(0.97)) << answers.text();
+  EXPECT_GE(answers.right, answers.runs - 1) << answers.text();
 }
 
 TEST(FewRowsOnBenches, RowsThatStandTwiceCountOnce) {
@@ -261,6 +279,13 @@ TEST(FewRowsOnBenches, RowsOfACoarseReadingMayBeAlike) {
         step / bench.ratio * std::max(1.0, std::round(row.input_nm * bench.ratio / step));
     row.speed_rpm = 1000.0;
   }
+  const auto stands_twice = [&](const loop::BenchRow& row) {
+    return std::count_if(data.rows.begin(), data.rows.end(), [&](const loop::BenchRow& other) {
+             return other.input_nm == row.input_nm && other.output_nm == row.output_nm;
+           }) > 1;
+  };
+  EXPECT_GT(2 * std::count_if(data.rows.begin(), data.rows.end(), stands_twice),
+            static_cast<std::ptrdiff_t>(data.rows.size()));
   const auto closed = loop::close_drive_loop(bench.model(), data);
   ASSERT_TRUE(closed);
   EXPECT_EQ(closed->result.observations + closed->result.outliers,
