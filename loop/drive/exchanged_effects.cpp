@@ -81,7 +81,8 @@ class Exchange {
     return at == found_.end() ? nullptr : &*at;
   }
 
-  /// Named effects of one column that do nearly the same, of each the shape that does most.
+  /// Named effects of one column that do nearly the same, of each the shape that does most; of its
+  /// own kind those of another form, as one that fades by another exponent.
   [[nodiscard]] std::vector<DriveEffect> in_place_of(std::size_t e) {
     const DriveFamily* own = effects_[e].family;
     std::vector<DriveEffect> others;
@@ -90,7 +91,7 @@ class Exchange {
     double best = 0.0;
     for (const DriveEffect& candidate : selection_.candidates()) {
       const DriveFamily* family = candidate.family;
-      bool taken = family == own;
+      bool taken = of_one_form(candidate, effects_[e]);
       for (std::size_t k = 0; k < effects_.size(); ++k)
         taken = taken || (k != e && effects_[k].family->id == family->id);
       // One with more figures holds this one as a limit: no other cause.
@@ -102,7 +103,7 @@ class Exchange {
       const double alike = std::pow(rest.dot(beside.own), 2) /
                            std::max(rest.squaredNorm() * beside.own.squaredNorm(), 1e-300);
       if (alike < kMayBeAlike) continue;
-      const bool same = !others.empty() && others.back().family == family;
+      const bool same = !others.empty() && of_one_form(others.back(), candidate);
       if (same && alike <= best) continue;
       best = alike;
       if (same)
@@ -111,6 +112,16 @@ class Exchange {
         others.push_back(candidate);
     }
     return others;
+  }
+
+  /// True where nothing but values that a fit moves differ.
+  [[nodiscard]] static bool of_one_form(const DriveEffect& a, const DriveEffect& b) {
+    if (a.family != b.family || a.shape.size() != b.shape.size()) return false;
+    for (std::size_t k = 0; k < a.shape.size(); ++k) {
+      const bool moves = k < a.family->shape_values.size() && a.family->shape_values[k].continuous;
+      if (!moves && a.shape[k] != b.shape[k]) return false;
+    }
+    return true;
   }
 
   [[nodiscard]] static std::size_t figures_of(const DriveFamily& family) {
@@ -183,8 +194,9 @@ class Exchange {
     return selection_.rubs_both_ways(state) && selection_.every_mesh_rubs(state);
   }
 
-  /// The intervals of all but the exchanged one hold what they are in the other set; that one is
-  /// said to be indistinguishable from what stands in its place.
+  /// The intervals of all but the exchanged one hold what they are in the other set, and its own
+  /// where its form alone was exchanged; else it is said to be indistinguishable from what stands
+  /// in its place.
   void hold(const std::vector<DriveEffect>& with, std::size_t exchanged) {
     const DriveContext here = selection_.context();
     const DriveFit fit(here, selection_.value_nm(), with, FitRows::kAll);
@@ -192,10 +204,12 @@ class Exchange {
     for (std::size_t e = 0; e < with.size(); ++e) {
       FoundEffect* as_told = told(effects_[e]);
       if (as_told == nullptr) continue;
-      if (e == exchanged) {
+      const bool its_form_alone =
+          with[e].family == effects_[e].family && !with[e].family->of_one_mesh;
+      if (e == exchanged && !its_form_alone) {
         if (with[e].family->id == as_told->id)
-          may_be_the_other_sensors(*as_told, with[e],
-                                   fit.coefficients()[fit.first_column(static_cast<int>(e))]);
+          may_be_the_others(*as_told, with[e],
+                            fit.coefficients()[fit.first_column(static_cast<int>(e))]);
         else
           cannot_be_told_from(*as_told, with[e].family->id);
         continue;
@@ -208,9 +222,8 @@ class Exchange {
         }
     }
   }
-  /// One of the two sensors, and these data do not say which.
-  void may_be_the_other_sensors(FoundEffect& effect, const DriveEffect& other,
-                                double coefficient) const {
+  /// Of the two sensors or of another mesh, and these data do not say which.
+  void may_be_the_others(FoundEffect& effect, const DriveEffect& other, double coefficient) const {
     const std::size_t told = effect.description.size();
     if (other.family->told)
       effect.description += ", or " +
