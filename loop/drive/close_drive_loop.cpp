@@ -121,6 +121,7 @@ class DriveReport {
     if (std::string scatter = where_it_scatters(selection_.table(), selection_.model().ratio, left);
         r.verdict != Verdict::kPartlyExplained && !scatter.empty())
       r.notes.push_back(std::move(scatter));
+    say_which_readings_are_coarse(r);
     done.before_nm.assign(selection_.value_nm().data(),
                           selection_.value_nm().data() + selection_.value_nm().size());
     done.after_nm.assign(left.data(), left.data() + left.size());
@@ -251,6 +252,28 @@ class DriveReport {
     const double ratio = selection_.model().ratio, input = step_of(std::move(driven[0])),
                  output = step_of(std::move(driven[1]));
     return std::max(1.0, 1.0 / ratio) * std::hypot(output, ratio * input) / std::sqrt(12.0);
+  }
+
+  /// A torque that is logged in steps as wide as what is called noise hides what is smaller.
+  void say_which_readings_are_coarse(LoopResult& r) const {
+    constexpr double kMuch = 0.5;  // of the noise
+    const auto& points = selection_.table().points;
+    for (const bool output : {true, false}) {
+      std::vector<double> read;
+      double square = 0.0;  // of what 1 N m too much moves the driven torque by
+      for (const BenchPoint& p : points) {
+        const bool driven = p.forward == output;
+        read.push_back(driven ? p.driven_nm : p.driving_nm);
+        square += driven || !(p.driving_nm > 0.0) ? 1.0 : std::pow(p.driven_nm / p.driving_nm, 2);
+      }
+      const double step = lattice_step_of(read),
+                   error = step * std::sqrt(square / (12.0 * static_cast<double>(points.size())));
+      if (!(error > kMuch * r.noise)) continue;
+      r.notes.push_back(
+          printed("the %s torque is logged in steps of %.3g N m, which make %.2g N m rms of the "
+                  "%.2g N m that are called noise: what is smaller is hidden; log it finer",
+                  output ? "output's" : "input's", step, error, r.noise));
+    }
   }
 
   /// Few set points of many rows each can be turned over in so few ways that no effect is surer

@@ -30,6 +30,7 @@ struct DriveShapeValue {
 using DriveReference = std::pair<std::string, double>;
 
 struct CalibratedLosses;
+struct DriveEffect;
 
 /// One kind of effect of a drive. One object in one file of effects/, listed in effects/registry.cpp;
 /// nothing else knows an effect by its name. Columns: change of the driven torque [N m] per unit
@@ -114,8 +115,9 @@ struct DriveFamily : EffectFacts {
   bool comes_again_over_the_angle = false;
   /// Comes and goes over the run in waves that a scan finds.
   bool comes_again_over_the_run = false;
-  /// Reads no more than so much of the output's torque.
-  bool is_cap = false;
+  /// True of effects that together may do what this one does alone: it is asked in their place once
+  /// all are chosen; empty: it is not.
+  std::function<bool(const std::vector<DriveEffect>&)> may_stand_for = {};
   /// Starts at rows of the run that a scan finds, and dies away.
   bool starts_in_run = false;
   /// The shapes by which it may be what a spectrum shows at an order; empty: none.

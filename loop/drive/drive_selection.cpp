@@ -94,7 +94,7 @@ DriveOutcome DriveSelection::choose() {
   follow_the_run(outcome);
   tell_as_whole_forms(outcome);
   tell_as_first_rows(outcome);
-  tell_as_cap(outcome);
+  tell_as_alike(outcome);
   let_held_out_rows_settle_kin(outcome);
   prefer_plainer_names(outcome);
   drop_what_is_nothing(outcome);
@@ -297,7 +297,24 @@ bool DriveSelection::ban_wrong_signs(const DriveOutcome& outcome) {
           }) || any;
   if (!every_mesh_rubs(state_of(fit)))
     any = ban([](const DriveEffect& c) { return c.family->of_one_mesh; }) || any;
+  // Of two readings of which one takes back what the other does the one that came later goes.
+  for (std::size_t e = 0; e < outcome.effects.size(); ++e)
+    for (std::size_t other = 0; other < e; ++other)
+      if (readings_cancel(fit, other, e)) {
+        const DriveFamily* family = outcome.effects[e].family;
+        any = ban([&](const DriveEffect& c) { return c.family == family; }) || any;
+      }
   return any;
+}
+
+bool DriveSelection::readings_cancel(const DriveFit& fit, std::size_t one, std::size_t other) {
+  constexpr double kLittle = 0.05;  // of their squares
+  const std::vector<DriveEffect>& effects = fit.effects();
+  for (const std::size_t e : {one, other})
+    if (!effects[e].family->named || effects[e].family->is_loss) return false;
+  const Eigen::VectorXd a = fit.explained_nm(static_cast<int>(one)),
+                        b = fit.explained_nm(static_cast<int>(other));
+  return (a + b).squaredNorm() < kLittle * (a.squaredNorm() + b.squaredNorm());
 }
 
 bool DriveSelection::rubs_both_ways(const DriveState& state) const {

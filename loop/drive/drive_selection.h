@@ -66,6 +66,9 @@ class DriveSelection {
   [[nodiscard]] bool rubs_both_ways(const DriveState& state) const;
   /// False where the friction of one mesh would be next to nothing beside the design's.
   [[nodiscard]] bool every_mesh_rubs(const DriveState& state) const;
+  /// True of two readings with names that together are next to nothing of what each is.
+  [[nodiscard]] static bool readings_cancel(const DriveFit& fit, std::size_t one,
+                                            std::size_t other);
   /// The place about which the model is linear.
   void move_state_to(const DriveState& state) { state_ = state; }
 
@@ -188,8 +191,9 @@ class DriveSelection {
   bool take_what_few_rows_show(DriveOutcome& outcome);
   /// A name of the whole run and a jump that takes it back, told as a loss of the first rows.
   void tell_as_first_rows(DriveOutcome& outcome);
-  /// What begins at a load, told as a reading that goes no further.
-  void tell_as_cap(DriveOutcome& outcome);
+  /// Effects that together do what one form does alone, told as that.
+  void tell_as_alike(DriveOutcome& outcome);
+  bool tell_as_alike(DriveOutcome& outcome, const DriveFamily& family);
   /// A wave over the angle may be in proportion to the load, grow over the run, or come by the
   /// clock: told so where that leaves surely less than it and the waves beside it.
   void tell_waves(DriveOutcome& outcome);

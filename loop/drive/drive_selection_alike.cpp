@@ -82,43 +82,64 @@ void DriveSelection::tell_as_first_rows(DriveOutcome& outcome) {
   }
 }
 
-/// A reading that stands still from a torque on is a loss that begins there only by chance: where
-/// it leaves as little, it takes the place of what has no name.
-void DriveSelection::tell_as_cap(DriveOutcome& outcome) {
+/// A reading that stands still from a torque on is a loss that begins there only by chance, and one
+/// in a bow over its load is a zero beside a curve: where it leaves as little, it takes their
+/// place.
+void DriveSelection::tell_as_alike(DriveOutcome& outcome) {
+  for (const DriveFamily& family : drive_library())
+    if (family.may_stand_for && family.may_stand_for(outcome.effects) &&
+        tell_as_alike(outcome, family))
+      return;
+}
+
+bool DriveSelection::tell_as_alike(DriveOutcome& outcome, const DriveFamily& family) {
   constexpr double kAsWell = 4.0;  // chi-square
-  const bool begins_at_a_load =
-      std::any_of(outcome.effects.begin(), outcome.effects.end(), [](const DriveEffect& e) {
-        return !e.family->named && e.family->over && e.family->over(e.shape) == 0.0;
-      });
-  if (!begins_at_a_load) return;
-  const DriveFamily& cap = *family_with(&DriveFamily::is_cap);
   const OneForm now = as_it_is(outcome);
   const double noise = now.square / std::max(1.0, outcome.rows - now.size);
-  const DriveContext here = context();
+  const DriveState state = state_;
+  DriveState best_state = state;
   OneForm best;
-  for (const bool with_names : {true, false}) {
+  enum Kept { kNames, kNamedLosses, kNone };
+  for (const Kept kept : {kNames, kNamedLosses, kNone}) {
     OneForm set;
-    for (std::size_t e = 0; e < outcome.effects.size() && with_names; ++e) {
-      if (!outcome.effects[e].family->named) continue;
+    for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
+      const DriveFamily& other = *outcome.effects[e].family;
+      if (kept == kNone || !other.named || (kept == kNamedLosses && !other.is_loss)) continue;
       set.effects.push_back(outcome.effects[e]);
       set.from.push_back(static_cast<int>(e));
     }
+    // (about the place of what is kept: a scale that goes moves what the others do)
+    state_ = state;
+    const DriveContext before = context();
+    state_ = state_of(DriveFit(before, value_, set.effects, FitRows::kTraining));
+    const DriveContext here = context();
+    const std::vector<DriveShape> shapes =
+        family.whole_shapes ? family.whole_shapes(here) : family.all_shapes(here, nullptr);
     const BesideEffects beside(here, value_, set.effects, FitRows::kTraining);
-    DriveEffect likeliest{&cap, {}};
+    DriveEffect likeliest{&family, {}};
     double most = 0.0;
-    for (DriveShape& shape : cap.whole_shapes(here))
-      if (const double gain = beside.with({&cap, shape}).gain; gain > most) {
+    for (const DriveShape& shape : shapes)
+      if (const double gain = beside.with({&family, shape}).gain; gain > most) {
         most = gain;
-        likeliest.shape = std::move(shape);
+        likeliest.shape = shape;
       }
     if (!(most > 0.0)) continue;
     set.effects.push_back(nearest_best(here, beside, nearest_best(here, beside, likeliest)));
     set.from.push_back(-1);
-    if (fits(set) && set.figure(noise) < best.figure(noise)) best = std::move(set);
+    if (!fits(set) || set.figure(noise) >= best.figure(noise)) continue;
+    best = std::move(set);
+    best_state = state_;
   }
-  if (best.effects.empty() || best.size > now.size || best.square - now.square > kAsWell * noise)
-    return;
-  (void)exchange_unless_denied(outcome, best, 0.0);
+  state_ = state;
+  // (every figure that it spares may leave as much)
+  const double spared = static_cast<double>(std::max(1, now.size - best.size));
+  if (best.effects.empty() || best.size > now.size ||
+      best.square - now.square > kAsWell * noise * spared)
+    return false;
+  state_ = best_state;
+  if (exchange_unless_denied(outcome, best, 0.0)) return true;
+  state_ = state;
+  return false;
 }
 
 }  // namespace trueflank::loop

@@ -75,10 +75,12 @@ class Exchange {
   }
 
   [[nodiscard]] FoundEffect* told(const DriveEffect& effect) {
-    const auto at = std::find_if(found_.begin(), found_.end(), [&](const FoundEffect& f) {
+    const auto is_it = [&](const FoundEffect& f) {
       return f.named && f.id == effect.family->id && f.side == effect.family->side;
-    });
-    return at == found_.end() ? nullptr : &*at;
+    };
+    // (of two of one name nobody says which is meant)
+    const auto at = std::find_if(found_.begin(), found_.end(), is_it);
+    return at == found_.end() || std::count_if(at, found_.end(), is_it) > 1 ? nullptr : &*at;
   }
 
   /// Named effects of one column that do nearly the same, of each the shape that does most; of its

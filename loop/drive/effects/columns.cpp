@@ -123,7 +123,9 @@ const char* name_of_quantity(double over) {
 }
 
 double in_direction(const DriveContext& context, const BenchPoint& p, double which) {
-  if (which == kAsItReads) return context.model.ratio * context.misread(p, false);
+  if (which == kAsItReads || which == kAsItsGainReads)
+    return context.model.ratio * context.misread(p, false) *
+           (which == kAsItsGainReads ? true_share(context, p) : 1.0);
   return is_of_direction(p, which) ? -context.lever(p) : 0.0;
 }
 
@@ -272,6 +274,16 @@ std::string percent_in_words(const Parameter& figure) {
   Parameter size = figure;
   if (figure.value < 0.0) size = {figure.name, -figure.value, -figure.high, -figure.low};
   return with_interval(size, " %") + (figure.value < 0.0 ? " less" : " more");
+}
+
+bool some_follows_the_load(const std::vector<DriveEffect>& effects) {
+  return std::any_of(effects.begin(), effects.end(), [](const DriveEffect& e) {
+    if (e.family->named) return false;
+    if (e.family->over) return e.family->over(e.shape) == 0.0;
+    const std::vector<DriveShape> terms = e.family->term_shapes(e.shape);
+    return !e.family->stands_alone &&
+           std::any_of(terms.begin(), terms.end(), [](const auto& t) { return t[0] != 0.0; });
+  });
 }
 
 }  // namespace trueflank::loop::drive_effects

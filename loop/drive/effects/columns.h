@@ -141,8 +141,11 @@ struct ValueSteps {
 /// As a reading of the output's torque, which takes in the one direction what it gives in the
 /// other.
 inline constexpr double kAsItReads = 3.0;
+/// As a gain of that reading: in proportion to the output's torque, at the largest load.
+inline constexpr double kAsItsGainReads = 4.0;
 /// Change of the driven torque [N m] for 1 N m lost at the input in both directions (0), in one (1,
-/// 2), or for 1 N m, as a torque at the input, that the output reads too much (kAsItReads).
+/// 2), or for 1 N m, as a torque at the input, that the output reads too much (kAsItReads,
+/// kAsItsGainReads).
 [[nodiscard]] double in_direction(const DriveContext& context, const BenchPoint& p, double which);
 /// " while the input drives"; empty of both.
 [[nodiscard]] std::string direction_in_words(double which);
@@ -171,6 +174,9 @@ inline constexpr const char* kNoLoss = " (the same sign in both directions: a re
 [[nodiscard]] std::vector<double> levels_run(const DriveContext& context, double over);
 /// Shares of the range at these levels and half way between them.
 [[nodiscard]] std::vector<double> places_between_levels(const DriveContext& context, double over);
+
+/// True where one without a name follows the load.
+[[nodiscard]] bool some_follows_the_load(const std::vector<DriveEffect>& effects);
 
 /// What forms must take off that are asked beside those that were asked first: they are told once
 /// in a million benches that do not hold them (chi-square).

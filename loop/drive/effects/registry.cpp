@@ -61,6 +61,7 @@ const std::vector<DriveFamily>& drive_library() {
         unnamed_root(),
         unnamed_states(),
         unnamed_reading_of_load(),
+        unnamed_reading_bow_of_load(),
         unnamed_reading_by_direction(),
         unnamed_reading_step(),
         unnamed_reading_hump(),
@@ -117,6 +118,7 @@ const std::vector<DriveFamily>& drive_library() {
         unnamed_cap(),
         unnamed_one_direction(),
         unnamed_fading_one_direction(),
+        unnamed_late_column(),
         unnamed_memory(),
         unnamed_reading_memory(),
     };

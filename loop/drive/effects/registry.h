@@ -65,6 +65,7 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_settling();
 [[nodiscard]] DriveFamily unnamed_bend();
 [[nodiscard]] DriveFamily unnamed_reading_of_load();
+[[nodiscard]] DriveFamily unnamed_reading_bow_of_load();
 [[nodiscard]] DriveFamily unnamed_reading_by_direction();
 [[nodiscard]] DriveFamily unnamed_viscous_slope();
 [[nodiscard]] DriveFamily unnamed_growth();
@@ -125,6 +126,7 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_late_wave();
 [[nodiscard]] DriveFamily unnamed_turned_wave();
 [[nodiscard]] DriveFamily unnamed_starts();
+[[nodiscard]] DriveFamily unnamed_late_column();
 [[nodiscard]] DriveFamily unnamed_memory();
 [[nodiscard]] DriveFamily unnamed_reading_memory();
 /// @}

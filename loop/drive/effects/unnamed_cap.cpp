@@ -61,7 +61,7 @@ DriveFamily unnamed_cap() {
   f.shape_names = {"cap_nm", "of_nm"};
   f.preference = 6;
   f.stands_alone = true;
-  f.is_cap = true;
+  f.may_stand_for = some_follows_the_load;
   f.asked_of_one_direction = true;
   f.correction = "take an amplifier or a sensor with a larger range, and run the large loads again";
   f.shape_values = {{.continuous = true,

@@ -45,7 +45,10 @@ std::string od_told(const DriveContext&, const DriveShape& s, double amount,
          at_the_largest(s[kOdOf]) +
          (fades ? " from rest, to a third of it at " + with_interval(figures[1], " rpm") : "") +
          " (flanks that are rough or dry on the side that carries then, a seal or a part that "
-         "works one way?)";
+         "works one way" +
+         (s[kOdOf] == double(kFlanks) && !fades
+              ? "; or a torque sensor whose gain is another under this sign of torque?)"
+              : "?)");
 }
 
 DriveFamily one_direction(bool fades) {

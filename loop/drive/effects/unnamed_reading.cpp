@@ -29,6 +29,16 @@ double read_too_much(const DriveContext& context, const BenchPoint& p) {
   return context.model.ratio * context.misread(p, false);
 }
 
+/// The least share of the largest load within which what is there under load alone may come: a part
+/// of it must be missing where the least load was run, or it is a zero that is wrong at every load,
+/// which has a name.
+double least_share(const DriveContext& context, double gone) {
+  constexpr double kOfLeast = 0.7;  // a quarter is missing there
+  return gone != 0.0 ? kLeastShare
+                     : std::max(kLeastShare, kOfLeast * context.table.least_load_nm /
+                                                 context.table.most_load_nm);
+}
+
 std::string speed_text(const DriveContext& context) {
   return printed("%.4g rpm", context.table.most_speed_rpm);
 }
@@ -93,18 +103,23 @@ DriveFamily unnamed_reading_near_zero() {
                        return std::pair(kLeastShare, kMostShare);
                      }}};
   f.kind = [](const DriveShape& s) { return static_cast<int>(s[1]); };
+  f.shows = [](const DriveContext& context, const DriveShape& s) {
+    return s[0] >= least_share(context, s[1]);
+  };
   const auto shapes = [](const DriveContext& context) {
     std::vector<DriveShape> all;
     if (has_both(context) && context.table.levels[0] >= 4)
       for (const double gone : {0.0, 1.0})
-        for (const double share : {0.03, 0.1, 0.25}) all.push_back({share, gone});
+        for (const double share : {0.03, 0.1, 0.25})
+          if (share >= least_share(context, gone)) all.push_back({share, gone});
     return all;
   };
   f.shapes = shapes;
   f.all_shapes = [shapes](const DriveContext& context, const DriveShape* about) {
     return about == nullptr
                ? shapes(context)
-               : with_first_moved(context, *about, {0.01, 1.5, kLeastShare, kMostShare, true});
+               : with_first_moved(context, *about,
+                                  {0.01, 1.5, least_share(context, (*about)[1]), kMostShare, true});
   };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
                   double* c) {
@@ -181,7 +196,8 @@ DriveFamily unnamed_gain_slope() {
            with_interval(figures[0], " % per C") + ", " + with_interval(figures[1], " %") +
            printed(" from %.3g", context.quantity_at_share(2.0, 0.0)) +
            printed(" to %.3g C", context.quantity_at_share(2.0, 1.0)) + ", right at " +
-           with_interval(figures[2], " C") + kNoLoss;
+           with_interval(figures[2], " C") + ", or the input's torque as much the other way" +
+           kNoLoss;
   };
   f.words = [](const DriveModel&, const DriveShape&, const DriveContext*) {
     return std::string("as a gain of the output's torque that follows the temperature");

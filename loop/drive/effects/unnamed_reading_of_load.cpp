@@ -14,16 +14,20 @@
 namespace trueflank::loop::drive_effects {
 
 namespace {
-constexpr double kLeastOfLoad = 1.3, kMostOfLoad = 5.0;  // powers
+constexpr double kLeastOfLoad = 1.3, kMostOfLoad = 5.0;    // powers
+constexpr double kRightSoonest = 0.5, kRightLatest = 1.6;  // of the largest load
+
+std::string weights_up_to_the_largest() {
+  return "load the output by weights on a lever up to the largest torque: what its torque reads "
+         "otherwise than they say is the error";
 }
+}  // namespace
 
 DriveFamily unnamed_reading_of_load() {
   constexpr int kFewestLoads = 4;
   DriveFamily f = reading_without_a_name();
   f.shape_names = {"power"};
-  f.correction =
-      "load the output by weights on a lever up to the largest torque: what its torque reads "
-      "otherwise than they say is the error";
+  f.correction = weights_up_to_the_largest();
   f.over = [](const DriveShape&) { return 0.0; };
   f.shape_values = {{.continuous = true, .limits = [](const DriveContext&) {
                        return std::pair(kLeastOfLoad, kMostOfLoad);
@@ -65,6 +69,59 @@ DriveFamily unnamed_reading_of_load() {
   };
   f.words = [](const DriveModel&, const DriveShape&, const DriveContext*) {
     return std::string("as a reading of the output's torque by a power of its load");
+  };
+  f.term_shapes = [](const DriveShape&) {
+    return std::vector<DriveShape>{{2.0, 0.0, 0.0, 0.0, 1.0}};
+  };
+  return f;
+}
+
+DriveFamily unnamed_reading_bow_of_load() {
+  constexpr int kFewestLoads = 5;
+  DriveFamily f = reading_without_a_name();
+  f.shape_names = {"right_again_at"};
+  f.correction = weights_up_to_the_largest();
+  f.over = [](const DriveShape&) { return 0.0; };
+  f.shape_values = {{.continuous = true, .limits = [](const DriveContext&) {
+                       return std::pair(kRightSoonest, kRightLatest);
+                     }}};
+  // A zero and a gain, which have names, do it beside a curve: it is tried in their place.
+  f.shapes = no_shapes;
+  f.may_stand_for = some_follows_the_load;
+  f.whole_shapes = [](const DriveContext& context) {
+    std::vector<DriveShape> places;
+    if (context.table.has(true) && context.table.has(false) &&
+        context.table.levels[0] >= kFewestLoads)
+      for (const double right : {0.6, 0.75, 0.9, 1.0, 1.15, 1.4}) places.push_back({right});
+    return places;
+  };
+  f.all_shapes = [](const DriveContext& context, const DriveShape* about) {
+    return about == nullptr
+               ? std::vector<DriveShape>{}
+               : with_first_moved(context, *about, {0.005, 1.0, kRightSoonest, kRightLatest, true});
+  };
+  f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
+                  double* c) {
+    const double x = true_share(context, p) / s[0];
+    c[0] = context.model.ratio * context.misread(p, false) * 4.0 * x * (1.0 - x);
+  };
+  f.figures = [](const DriveContext& context, const DriveShape& s, double amount) {
+    const double right_nm = s[0] * context.table.most_load_nm * context.model.ratio;
+    return std::vector<Parameter>{figure_of("amplitude_nm", std::abs(amount)),
+                                  figure_of("reads_more_nm", amount * context.model.ratio),
+                                  figure_of("most_at_output_nm", 0.5 * right_nm),
+                                  figure_of("right_again_at_output_nm", right_nm)};
+  };
+  f.told = [](const DriveContext& context, const DriveShape&, double,
+              const std::vector<Parameter>& figures) {
+    return "the output's torque is read in a bow over its load: right at none, it " +
+           reads_in_words(figures[1]) + " at " + with_interval(figures[2], " N m") +
+           " and is right again at " + with_interval(figures[3], " N m") +
+           ", or the input's torque as much the other way, divided by the ratio of " +
+           short_text(context.model.ratio) + kNoLoss + ": a sensor that is not straight?";
+  };
+  f.words = [](const DriveModel&, const DriveShape&, const DriveContext*) {
+    return std::string("as a reading of the output's torque in a bow over its load");
   };
   f.term_shapes = [](const DriveShape&) {
     return std::vector<DriveShape>{{2.0, 0.0, 0.0, 0.0, 1.0}};

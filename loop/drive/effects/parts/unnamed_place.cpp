@@ -56,6 +56,9 @@ std::vector<Parameter> with_reading(const DriveContext& context, double which, d
                                     std::vector<Parameter> figures) {
   if (which == kAsItReads)
     figures.push_back(figure_of("reads_more_nm", amount * context.model.ratio));
+  if (which == kAsItsGainReads)
+    figures.push_back(
+        figure_of("gain_changes_percent", 100.0 * amount / context.table.most_load_nm));
   return figures;
 }
 
@@ -133,9 +136,14 @@ std::string step_told(const DriveContext&, const DriveShape& s, double amount,
   const std::string where = (s[kUpToIt] == 0.0 ? " from a " : " up to a ") +
                             std::string(name_of_quantity(s[0])) + " " + place +
                             (s[kUpToIt] == 0.0 ? " on" : "");
+  const std::string than = s[kUpToIt] == 0.0 ? " than below" : " than above";
   if (s[kStepDirection] == kAsItReads)
-    return "the output's torque " + reads_in_words(figures[2]) + where +
-           (s[kUpToIt] == 0.0 ? " than below" : " than above") + kNoLoss;
+    return "the output's torque " + reads_in_words(figures[2]) + where + than + kNoLoss;
+  if (s[kStepDirection] == kAsItsGainReads)
+    return "the output's torque reads " + percent_in_words(figures[2]) + where + than +
+           ", in proportion to the load, or the input's torque as much the other way (a motor's "
+           "constant in a weakened field, an amplifier's range?)" +
+           kNoLoss;
   const std::string size = with_interval(figures[1], " N m") + (amount > 0.0 ? " more" : " less");
   return "a loss" + direction_in_words(s[kStepDirection]) + " that changes at once: " + size +
          where + (s[kStepDirection] == 0.0 ? "" : ", and nothing in the other direction");
@@ -172,6 +180,20 @@ std::vector<double> directions_of(const DriveContext& context, bool reading) {
   return alone.size() > 1 ? std::vector{kAsItReads} : std::vector<double>{};
 }
 
+/// A step of a gain over the load is that of a range, which is a form of its own.
+bool can_be_a_gain(double over) { return over != 0.0; }
+
+/// Of a step that is read: the largest load [N m], and how much a gain changes at most.
+constexpr std::size_t kStepOfNm = 4;
+constexpr double kMostGainChange = 0.15;
+
+DriveShape step_shape(const DriveContext& context, double over, double place, double up_to_it,
+                      double which) {
+  DriveShape shape{over, place, up_to_it, which};
+  if (which == kAsItReads || which == kAsItsGainReads) shape.push_back(context.table.most_load_nm);
+  return shape;
+}
+
 /// Everywhere between the ends of the range, or, to be found by, at the levels and between them.
 std::vector<DriveShape> all_places(const DriveContext& context, const DriveShape* about, bool hump,
                                    bool reading) {
@@ -200,9 +222,14 @@ std::vector<DriveShape> all_places(const DriveContext& context, const DriveShape
     for (const double place : places) {
       for (const double which : directions) {
         if (!hump) {
-          shapes.push_back({double(over), place, about ? (*about)[kUpToIt] : 0.0, which});
+          const auto add = [&](double up_to_it, double of_which) {
+            shapes.push_back(step_shape(context, over, place, up_to_it, of_which));
+          };
+          add(about ? (*about)[kUpToIt] : 0.0, which);
           // (of one direction alone nothing stands for what it is on the other side)
-          if (about == nullptr && which != 0.0) shapes.push_back({double(over), place, 1.0, which});
+          if (about == nullptr && which != 0.0) add(1.0, which);
+          if (about == nullptr && which == kAsItReads && can_be_a_gain(over))
+            for (const double up_to_it : {0.0, 1.0}) add(up_to_it, kAsItsGainReads);
           continue;
         }
         for (const double kind : {double(kSmooth), double(kSharp), double(kEvenBell)}) {
@@ -262,7 +289,7 @@ DriveFamily at_a_place(bool hump, bool reading) {
         const auto widths = which == 0.0 ? std::vector{0.15, 0.35} : std::vector{0.35};
         for (const double place : places) {
           if (!hump)
-            shapes.push_back({double(over), place, 0.0, which});
+            shapes.push_back(step_shape(context, over, place, 0.0, which));
           else
             for (const double width : widths)
               shapes.push_back({double(over), place, width, 0.0, which});
@@ -282,10 +309,26 @@ DriveFamily at_a_place(bool hump, bool reading) {
   };
   if (!hump) {
     f.shape_names.insert(f.shape_names.end(), {"up_to_it", "which_direction"});
+    if (reading) {
+      f.shape_names.emplace_back("of_nm");
+      f.plausible = [](const DriveModel&, const DriveShape& s, double amount_nm) {
+        return s[kStepDirection] != kAsItsGainReads ||
+               std::abs(amount_nm) < kMostGainChange * s[kStepOfNm];
+      };
+    }
     f.kind = [](const DriveShape& s) { return static_cast<int>(s[kStepDirection]); };
     f.kin_shapes = [](const DriveShape& s) {
-      return std::vector<DriveShape>{{s[0], s[1], 0.0, s[kStepDirection]},
-                                     {s[0], s[1], 1.0, s[kStepDirection]}};
+      std::vector<DriveShape> shapes;
+      const bool reads = s[kStepDirection] == kAsItReads || s[kStepDirection] == kAsItsGainReads;
+      for (const double which : reads&& can_be_a_gain(s[0])
+                                    ? std::vector{kAsItReads, kAsItsGainReads}
+                                    : std::vector{s[kStepDirection]})
+        for (const double up_to_it : {0.0, 1.0}) {
+          shapes.push_back(s);
+          shapes.back()[kUpToIt] = up_to_it;
+          shapes.back()[kStepDirection] = which;
+        }
+      return shapes;
     };
   }
   f.stands_alone = true;

@@ -19,6 +19,8 @@ namespace {
 enum ValleyValue : std::size_t { kValleyOver, kValleyPlace, kValleyPower };
 /// What a loss that saturates grows with: the driving torque, the speed, what the output carries.
 enum SaturatesOver { kOverDriving, kOverSpeed, kOverCarried };
+/// Of one that saturates; `kSaturatesGone`: it is there at no load and dies away as the load grows.
+enum SaturatesValue : std::size_t { kSaturatesScale, kSaturatesOver, kSaturatesGone };
 constexpr double kLeastScale = 0.03, kMostScale = 0.6;           // of the largest load or speed
 constexpr double kFirstOfRanges = 0.08, kLastOfRanges = 0.95;    // of the largest load
 constexpr double kValleyNearest = 0.12, kValleyFarthest = 0.88;  // of the range
@@ -124,24 +126,33 @@ DriveFamily unnamed_valley() {
 DriveFamily unnamed_saturating() {
   DriveFamily f = without_a_name();
   f.parameters = {"amount_nm"};
-  f.shape_names = {"scale", "over"};
+  f.shape_names = {"scale", "over", "gone"};
   f.preference = 7;
   f.stands_alone = true;
   f.shape_values = {
       {.continuous = true,
        .limits = [](const DriveContext&) { return std::pair(kLeastScale, kMostScale); }},
+      {},
       {}};
   f.shapes = no_shapes;
   f.whole_shapes = [](const DriveContext& context) {
+    constexpr double kOfLeast = 0.7;  // at the least load a quarter of what dies away is left
+    const double least = kOfLeast * context.table.least_load_nm / context.table.most_load_nm;
     std::vector<DriveShape> shapes;
     for (const double over : {double(kOverDriving), double(kOverSpeed), double(kOverCarried)}) {
-      if (!can_have_a_valley(context, over == double(kOverSpeed) ? 1.0 : 0.0)) continue;
-      for (double scale = kLeastScale; scale < kMostScale; scale *= 1.15)
-        shapes.push_back({scale, over});
+      const bool speed = over == double(kOverSpeed);
+      if (!can_have_a_valley(context, speed ? 1.0 : 0.0)) continue;
+      for (double scale = kLeastScale; scale < kMostScale; scale *= 1.15) {
+        shapes.push_back({scale, over, 0.0});
+        // (what dies away over the speed has a name)
+        if (!speed && scale >= least) shapes.push_back({scale, over, 1.0});
+      }
     }
     return shapes;
   };
-  f.kind = [](const DriveShape& s) { return static_cast<int>(s[1]); };
+  f.kind = [](const DriveShape& s) {
+    return static_cast<int>(3.0 * s[kSaturatesGone] + s[kSaturatesOver]);
+  };
   f.all_shapes = [](const DriveContext& context, const DriveShape* about) {
     return about == nullptr
                ? std::vector<DriveShape>{}
@@ -149,35 +160,46 @@ DriveFamily unnamed_saturating() {
   };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
                   double* c) {
-    const double share = s[1] == double(kOverDriving) ? p.load_nm / context.table.most_load_nm
-                         : s[1] == double(kOverSpeed) ? p.speed_rpm / context.table.most_speed_rpm
-                                                      : context.share_of_range(p, 0.0);
-    c[0] = -context.lever(p) * (1.0 - std::exp(-share / s[0]));
+    const double over = s[kSaturatesOver],
+                 share = over == double(kOverDriving) ? p.load_nm / context.table.most_load_nm
+                         : over == double(kOverSpeed) ? p.speed_rpm / context.table.most_speed_rpm
+                                                      : context.share_of_range(p, 0.0),
+                 gone = std::exp(-share / s[kSaturatesScale]);
+    c[0] = -context.lever(p) * (s[kSaturatesGone] != 0.0 ? gone : 1.0 - gone);
   };
   f.figures = [](const DriveContext& context, const DriveShape& s, double amount) {
     const BenchTable& t = context.table;
+    const double scale = s[kSaturatesScale];
     return std::vector<Parameter>{
         figure_of("amplitude_nm", std::abs(amount)),
-        s[1] == double(kOverDriving) ? figure_of("within_input_nm", s[0] * t.most_load_nm)
-        : s[1] == double(kOverSpeed)
-            ? figure_of("within_rpm", s[0] * t.most_speed_rpm)
-            : figure_of("within_output_nm", s[0] * t.most_carried_nm * context.model.ratio)};
+        s[kSaturatesOver] == double(kOverDriving)
+            ? figure_of("within_input_nm", scale * t.most_load_nm)
+        : s[kSaturatesOver] == double(kOverSpeed)
+            ? figure_of("within_rpm", scale * t.most_speed_rpm)
+            : figure_of("within_output_nm", scale * t.most_carried_nm * context.model.ratio)};
   };
   f.told = [](const DriveContext&, const DriveShape& s, double amount,
               const std::vector<Parameter>& figures) {
-    const bool speed = s[1] == double(kOverSpeed);
+    const bool speed = s[kSaturatesOver] == double(kOverSpeed), gone = s[kSaturatesGone] != 0.0;
+    const std::string size = with_interval(figures[0], amount > 0.0 ? " N m" : " N m less"),
+                      within = with_interval(figures[1], speed ? " rpm"
+                                                         : s[kSaturatesOver] == double(kOverDriving)
+                                                             ? " N m at the input"
+                                                             : " N m at the output");
+    if (gone)
+      return "a loss at low load that dies away as the load grows: " + size +
+             " at no load, all but a third of that gone within " + within +
+             " (bearings or planets that skid, a part that finds its seat under load?)";
     return std::string("a loss that grows with the ") + (speed ? "speed" : "load") +
-           " and saturates: it comes to " +
-           with_interval(figures[0], amount > 0.0 ? " N m" : " N m less") +
-           ", all but a third of that within " +
-           with_interval(figures[1], speed                          ? " rpm"
-                                     : s[1] == double(kOverDriving) ? " N m at the input"
-                                                                    : " N m at the output") +
+           " and saturates: it comes to " + size + ", all but a third of that within " + within +
            (speed ? "" : " (dry friction that is full soon?)");
   };
   f.words = [](const DriveModel&, const DriveShape& s, const DriveContext*) {
-    return std::string("that grows with the ") + (s[1] == double(kOverSpeed) ? "speed" : "load") +
-           " and saturates";
+    return s[kSaturatesGone] != 0.0
+               ? std::string("that dies away as the load grows")
+               : std::string("that grows with the ") +
+                     (s[kSaturatesOver] == double(kOverSpeed) ? "speed" : "load") +
+                     " and saturates";
   };
   return f;
 }
