@@ -178,5 +178,23 @@ TEST(WiderBody, AStepOfTheFlanksAloneIsNone) {
   }
 }
 
+// A thin ring in a chuck: the radius follows arches with cusps at the jaws.
+TEST(ArchesBetweenJaws, AreOneFormWithTheirHeight) {
+  for (const int jaws : {3, 4}) {
+    const MadeGear gear = spur(40);
+    const Process arched{
+        .move_um = [jaws](const MadeGear&, const FlankSpot&, const Vec3& p) -> Vec3 {
+          const double um = 9.0 * std::abs(std::sin(0.5 * jaws * (std::atan2(p[1], p[0]) - 0.4)));
+          const double radius = std::hypot(p[0], p[1]);
+          return {um * p[0] / radius, um * p[1] / radius, 0.0};
+        }};
+    const auto result = close(gear, scan_of(gear, {arched}, scanned(20000, 0.9, 11)), true);
+    EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
+    ASSERT_EQ(result.effects.size(), 1U) << list(result);
+    EXPECT_TRUE(tells(result, "arches between the jaws")) << list(result);
+    EXPECT_NEAR(result.effects.front().terms.front().amplitude(), 9.0, 0.15) << list(result);
+  }
+}
+
 }  // namespace
 }  // namespace trueflank::test

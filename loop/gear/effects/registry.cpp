@@ -117,6 +117,9 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_dent(),
         unnamed_swellings(),
         unnamed_spot(),
+        unnamed_pits(),
+        unnamed_bands(),
+        unnamed_flight(),
     };
     for (EffectFamily& family : forms_of_teeth()) all.push_back(std::move(family));
     for (EffectFamily& family : all) {

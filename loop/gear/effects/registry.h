@@ -70,6 +70,8 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_skewed_band();
 [[nodiscard]] EffectFamily unnamed_sawtooth();
 [[nodiscard]] EffectFamily unnamed_arches();
+[[nodiscard]] EffectFamily unnamed_bands();
+[[nodiscard]] EffectFamily unnamed_flight();
 [[nodiscard]] EffectFamily unnamed_dish();
 [[nodiscard]] EffectFamily unnamed_patch();
 [[nodiscard]] EffectFamily unnamed_corner();
@@ -148,6 +150,7 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_dent();
 [[nodiscard]] EffectFamily unnamed_swellings();
 [[nodiscard]] EffectFamily unnamed_spot();
+[[nodiscard]] EffectFamily unnamed_pits();
 /// @}
 
 /// All of unnamed_product, to choose from.

@@ -15,6 +15,7 @@
 #include "trueflank/loop/gear/part/one_flank.h"
 #include "trueflank/loop/gear/part/other_starts.h"
 #include "trueflank/loop/gear/part/parts_of_forms.h"
+#include "trueflank/loop/gear/part/pits.h"
 #include "trueflank/loop/gear/part/pixels.h"
 #include "trueflank/loop/gear/part/points_aside.h"
 #include "trueflank/loop/gear/part/records.h"
@@ -142,6 +143,7 @@ void explain_part(PartModel& model) {
 }
 
 void explain_measured_part(PartModel& model) {
+  begin_with_pits(model);
   explain_part(model);
   const std::optional<RemainderFinding> aside = explain_without_points_aside(model);
   if (weigh_beside_forms(model)) {
@@ -149,6 +151,7 @@ void explain_measured_part(PartModel& model) {
     tell_what_is_left(model);
   }
   if (aside) model.remainder.insert(model.remainder.begin(), *aside);
+  say_how_sure_pits_are(model);
 }
 
 }  // namespace trueflank::loop

@@ -84,6 +84,7 @@ struct PartModel {
   std::vector<Effect> effects;
   DiscoveryResult discovery;  ///< chosen: in the order of effects; group -1: not of the candidates
   std::vector<double> given_p_values;  ///< of the given ones that were told here, which stand last
+  double p_value_of_pits = 1.0;        ///< where these are given (pits.h)
   std::vector<Effect> left_beside;     ///< beside which the test of what is left was made
   std::vector<RemainderFinding> remainder;  ///< what no effect found took up
   SharedByNeighbours neighbours;

@@ -2,6 +2,7 @@
 // What the chosen effects leave is searched for forms; what these and the hold-out say of the
 // effects.
 #include "trueflank/loop/gear/part/taken_up.h"
+#include "trueflank/loop/gear/part/bands.h"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -338,6 +339,7 @@ void nominate(PartModel& model) {
   for (const RemainderFinding& clamping : clampings_of_files(model)) take_up(model, clamping);
   for (const RemainderFinding& pixels : pixels_of_plane(model)) take_up(model, pixels);
   for (const RemainderFinding& march : marching_waves(model)) take_up(model, march);
+  if (const auto bands = bands_of_flanks(model)) take_up(model, *bands);
   for (const RemainderFinding& wave : waves_of_odd_course(model)) take_up(model, wave);
   for (int round = 0; round < kMostWaves; ++round) {
     const auto& findings = remainder_of(model, model.options.given, RemainderOf::kTraining);

@@ -34,6 +34,21 @@ double bell_that_ends(double off, double half) {
   return std::abs(phase) < 0.5 * kPi ? std::cos(phase) * std::cos(phase) : 0.0;
 }
 
+/// A cosine up to where it is nothing, e^-1 of it at the half width: a ring between jaws that
+/// arches, with cusps where one arch ends and the next begins.
+double arch_that_ends(double off, double half) {
+  constexpr double kAtHalf = 1.1941;  // acos(exp(-1))
+  const double phase = kAtHalf * off / half;
+  return std::abs(phase) < 0.5 * kPi ? std::cos(phase) : 0.0;
+}
+
+/// How a place around the gear dies away to either side.
+enum EndsOfPlace { kAsABell, kAsASquaredCosine, kAsAnArch };
+double dying_away(double off, double half, double ends) {
+  if (ends == kAsABell) return bell(off, half);
+  return ends == kAsASquaredCosine ? bell_that_ends(off, half) : arch_that_ends(off, half);
+}
+
 /// What a displacement outwards is worth along the normal.
 double worth_of_radius(const FlankGeometry& g, const Place& p) {
   return normal_part(g, p, p.polar_direction[0], p.polar_direction[1]);
@@ -51,7 +66,7 @@ double bells_towards(const Place& p, double number, double at_deg, double half_d
   double size = 0.0;
   for (const double next : {-apart, 0.0, apart})  // (one place: once)
     if (std::abs(off + next) < std::min(kNothing * half, kPi + half))
-      size += ends == 0.0 ? bell(off + next, half) : bell_that_ends(off + next, half);
+      size += dying_away(off + next, half, ends);
   return size;
 }
 
@@ -256,9 +271,10 @@ EffectFamily unnamed_body_facing() {
 
 /// A place of the body that stands out or lies back: by the direction in which a point lies, along
 /// the normal or, `radial` 1, outwards; all over profile and face or along a part of them; a bell
-/// around the gear or, `ends` 1, a squared cosine, as what sags on one side. A sink beside a gate,
-/// the mark of an ejector, a press fit over a keyway. Told in place of forms of some teeth that lie
-/// side by side (part/body/body_forms.cpp), and no candidate of its own.
+/// around the gear or, `ends` 1, a squared cosine, as what sags on one side, or, `ends` 2, an arch,
+/// as a ring between jaws. A sink beside a gate, the mark of an ejector, a press fit over a keyway.
+/// Told in place of forms of some teeth that lie side by side (part/body/body_forms.cpp), and no
+/// candidate of its own.
 EffectFamily unnamed_body_place() {
   EffectFamily f = described("unnamed_body_place", {"number", "radial", "at_deg", "half_deg"});
   for (const std::string along : {"profile", "face"})
@@ -298,7 +314,7 @@ EffectFamily unnamed_body_place() {
   f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
   f.bends_over_the_face = [](const EffectShape& shape) { return has_course(shape, kFaceOfPlace); };
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
-    constexpr double kWidest_deg = 75.0;
+    constexpr double kWidest_deg = 75.0, kHalfOfWholeArch = 1.1941 / kPi;
     const double narrowest_deg = 90.0 / g.teeth();
     std::vector<EffectShape> shapes;
     for (const double off : {-0.5, -0.15, -0.04, 0.0, 0.04, 0.15, 0.5})
@@ -309,9 +325,18 @@ EffectFamily unnamed_body_place() {
                                std::min(kWidest_deg, 0.4 * 360.0 / shape[0]));
         if (beside != shape) shapes.push_back(std::move(beside));
       }
-    for (const std::size_t other : {std::size_t{1}, kEndsOfPlace}) {
+    shapes.push_back(shape);
+    shapes.back()[1] = 1.0 - shape[1];
+    for (const EndsOfPlace ends : {kAsABell, kAsASquaredCosine, kAsAnArch}) {
+      if (shape[kEndsOfPlace] == ends) continue;
       shapes.push_back(shape);
-      shapes.back()[other] = 1.0 - shape[other];
+      shapes.back()[kEndsOfPlace] = ends;
+    }
+    // (arches from one jaw to the next)
+    if (shape[0] > 1.0) {
+      shapes.push_back(shape);
+      shapes.back()[kEndsOfPlace] = kAsAnArch;
+      shapes.back()[3] = kHalfOfWholeArch * 360.0 / shape[0];
     }
     put_courses_beside(g, shape, kProfileOfPlace, 0.0, shapes);
     put_courses_beside(g, shape, kFaceOfPlace, 1.0, shapes);
@@ -328,7 +353,8 @@ EffectFamily unnamed_body_place() {
                  number("half_deg")};
   add_keys_of_course("profile", f);
   add_keys_of_course("face", f);
-  f.term_keys.push_back({"dies_away", TermKey::Kind::kWord, {"as_a_bell", "as_a_squared_cosine"}});
+  f.term_keys.push_back(
+      {"dies_away", TermKey::Kind::kWord, {"as_a_bell", "as_a_squared_cosine", "as_an_arch"}});
   f.words = [](const ToldForm& told) {
     const EffectShape& shape = told.shape;
     const int sign = told.sign();
@@ -363,8 +389,10 @@ EffectFamily unnamed_body_place() {
     return text + ": there the teeth " +
            (sign == 0 ? "stand out or lie back" : stand(of_a_ring ? -sign : sign)) +
            " on both flanks, as from " +
-           (shape[3] > kWide_deg ? "a body that sags, warps or is held on one side"
-                                 : "a gate, an ejector or a clamp");
+           (shape[kEndsOfPlace] == kAsAnArch && !one
+                ? "a thin ring that arches between the jaws of a chuck"
+            : shape[3] > kWide_deg ? "a body that sags, warps or is held on one side"
+                                   : "a gate, an ejector or a clamp");
   };
   return f;
 }
