@@ -48,7 +48,7 @@ std::vector<EffectShape> edges_beside(const FlankGeometry& g, const EffectShape&
   std::erase_if(shapes, [&](const EffectShape& s) {
     const double share = share_at(g, s[0], s[1]);
     return !(share > 0.0 && share < 1.0 && s[kPeriod] > 0.005 * range &&
-             s[kPeriod] < 0.7 * range) ||
+             s[kPeriod] < 0.55 * range) ||
            (bands && !(s[kBandWidth] > 0.08 * s[kPeriod] && s[kBandWidth] < 0.92 * s[kPeriod]));
   });
   return shapes;

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <utility>
 
 #include "trueflank/loop/gear/effects/along_flank.h"
@@ -32,8 +31,10 @@ class BandSearch {
              const std::vector<float>& row_um)
       : geometry_(geometry), face_(geometry.face_width_mm()) {
     std::array<std::vector<std::pair<double, double>>, 2> points;  // height, deviation
-    std::map<int, std::pair<double, double>> levels;               // of traces and flanks
-    std::vector<std::pair<std::size_t, int>> rows;
+    const auto flanks = static_cast<std::size_t>(2 * geometry.teeth() + 2);
+    std::vector<std::pair<double, double>> levels(  // of flanks, then of traces
+        flanks + static_cast<std::size_t>(std::max(0, table.traces)));
+    std::vector<std::pair<std::size_t, std::size_t>> rows;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
       const Observation& row = table.rows[i];
       const int patch = patches.patch_of_row[i];
@@ -41,7 +42,10 @@ class BandSearch {
           patch < 0 || patches.patches[static_cast<std::size_t>(patch)].fold == 0)
         continue;
       const Place& place = table.place(row);
-      const int unit = row.trace >= 0 ? -1 - row.trace : 2 * place.tooth + (place.side > 0 ? 1 : 0);
+      const std::size_t unit =
+          row.trace >= 0 ? flanks + static_cast<std::size_t>(row.trace)
+                         : static_cast<std::size_t>(2 * place.tooth + (place.side > 0 ? 1 : 0));
+      if (unit >= levels.size()) continue;
       auto& level = levels[unit];
       level.first += row_um[i];
       level.second += 1.0;
@@ -139,7 +143,7 @@ class BandSearch {
 
   struct Repeats {
     double period_mm = 0.0, place_mm = 0.0, width_mm = 0.0;  ///< width: of a band
-    double left = 1e300;
+    double left = 1e300;  ///< of what is folded: less what they take out
   };
 
   static double band(double z, const Repeats& r) {
@@ -152,8 +156,9 @@ class BandSearch {
   struct Folded {
     Repeats bands, saw;
   };
+  /// None where no form takes out so much, `least`.
   [[nodiscard]] Folded folded(const Strips& strips, const Eigen::VectorXd& level_less,
-                              double period) const {
+                              double period, double least) const {
     std::array<double, kPhases> weight{}, value{};
     for (int k = 0; k < count_; ++k) {
       const double share = face_ * (k + 0.5) / count_ / period;
@@ -167,6 +172,10 @@ class BandSearch {
       all_value += value[c];
     }
     Folded best;
+    double any_form = -all_value * all_value / all_weight;
+    for (std::size_t c = 0; c < kPhases; ++c)
+      if (weight[c] > 0.0) any_form += value[c] * value[c] / weight[c];
+    if (any_form < least) return best;
     double most = -1.0, most_of_saw = -1.0;
     for (std::size_t from = 0; from < kPhases; ++from) {
       double w = 0.0, v = 0.0, sw = 0.0, sww = 0.0, sv = 0.0;
@@ -258,10 +267,10 @@ class BandSearch {
       const double v = 2.0 * (k + 0.5) / count_ - 1.0;
       level_less[k] -= strips.root[k] * (smooth[0] + smooth[1] * v + smooth[2] * v * v);
     }
-    const double shortest = kShortestInStrips * face_ / count_, longest = 0.55 * face_;
+    const double shortest = kShortestInStrips * face_ / count_, longest = 0.5 * face_;
     Folded best;
     for (double period = shortest; period < longest; period *= 1.0 + 0.12 * period / face_) {
-      const Folded found = folded(strips, level_less, period);
+      const Folded found = folded(strips, level_less, period, kGain);
       if (found.bands.left < best.bands.left) best.bands = found.bands;
       if (found.saw.left < best.saw.left) best.saw = found.saw;
     }
@@ -328,7 +337,12 @@ class BandSearch {
                                                                    double one, double other,
                                                                    double left_by_saw) const {
     constexpr double kClearly = 25.0;
-    if (left_by_saw < found.left + kClearly) return {};
+    constexpr int kFewestEdges = 4;
+    if (left_by_saw < found.left + kClearly ||
+        edges_at(found.place_mm, found.period_mm) +
+                edges_at(found.place_mm + found.width_mm, found.period_mm) <
+            kFewestEdges)
+      return {};
     const CourseOfBands course = [&](double z) { return band(z, found); };
     const auto flanks = flanks_of(course, 3);
     if (!flanks ||
@@ -361,6 +375,9 @@ class BandSearch {
                      3);
     });
     if (found.left > plain - gain + kNoWorse) return {};
+    // (one step, or two, are told as these)
+    constexpr int kFewestSteps = 3;
+    if (edges_at(found.place_mm, found.period_mm) < kFewestSteps) return {};
     found.place_mm = first_place(found);
     const CourseOfBands course = [&](double z) {
       return std::floor((z - found.place_mm) / found.period_mm) + 1.0;
@@ -381,6 +398,15 @@ class BandSearch {
     return std::pair(steps, gain);
   }
 
+  /// Places of the face, away from its ends, at which edges stand that come again.
+  [[nodiscard]] int edges_at(double place_mm, double period_mm) const {
+    constexpr double kEnd = 0.02;
+    int edges = 0;
+    for (double at = place_mm - period_mm * std::floor(place_mm / period_mm); at < face_;
+         at += period_mm)
+      edges += at > kEnd * face_ && at < (1.0 - kEnd) * face_ ? 1 : 0;
+    return edges;
+  }
   [[nodiscard]] static double first_place(const Repeats& r) {
     const double first = r.place_mm - r.period_mm * std::floor(r.place_mm / r.period_mm);
     return first > 0.0 ? first : r.period_mm;

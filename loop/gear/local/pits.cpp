@@ -161,7 +161,7 @@ class PitSearch {
     const std::size_t stride = 1 + points.size() / kSome;
     double limit = 1e300;
     Eigen::Matrix<double, kPoly, 1> found = Eigen::Matrix<double, kPoly, 1>::Zero();
-    for (int turn = 0; turn < 4; ++turn) {
+    for (int turn = 0; turn < 3; ++turn) {
       Eigen::Matrix<double, kPoly, kPoly> normal =
           1e-9 * Eigen::Matrix<double, kPoly, kPoly>::Identity();
       Eigen::Matrix<double, kPoly, 1> right = Eigen::Matrix<double, kPoly, 1>::Zero();
@@ -169,13 +169,13 @@ class PitSearch {
       for (std::size_t i = 0; i < points.size(); i += stride) {
         const auto t = terms_at(u_of(points[i]), v_of(points[i]));
         const double um = points[i].um - found.dot(t);
-        left.push_back(static_cast<float>(um));
+        if (turn == 1) left.push_back(static_cast<float>(um));
         if (std::abs(um) > limit) continue;
         normal += t * t.transpose();
         right += points[i].um * t;
       }
       found = normal.ldlt().solve(right);
-      if (turn > 0) limit = 3.0 * robust_sigma(std::move(left));
+      if (turn == 1) limit = 3.0 * robust_sigma(std::move(left));
     }
     for (PointOfFlank& p : points) p.um -= found.dot(terms_at(u_of(p), v_of(p)));
   }
