@@ -93,7 +93,7 @@ class Exchange {
     double best = 0.0;
     for (const DriveEffect& candidate : selection_.candidates()) {
       const DriveFamily* family = candidate.family;
-      bool taken = of_one_form(candidate, effects_[e]);
+      bool taken = of_one_form(candidate, effects_[e]) || (family == own && family->of_one_mesh);
       for (std::size_t k = 0; k < effects_.size(); ++k)
         taken = taken || (k != e && effects_[k].family->id == family->id);
       // One with more figures holds this one as a limit: no other cause.
@@ -105,7 +105,8 @@ class Exchange {
       const double alike = std::pow(rest.dot(beside.own), 2) /
                            std::max(rest.squaredNorm() * beside.own.squaredNorm(), 1e-300);
       if (alike < kMayBeAlike) continue;
-      const bool same = !others.empty() && of_one_form(others.back(), candidate);
+      const bool same = !others.empty() && (family == own ? of_one_form(others.back(), candidate)
+                                                          : others.back().family == family);
       if (same && alike <= best) continue;
       best = alike;
       if (same)
@@ -206,12 +207,10 @@ class Exchange {
     for (std::size_t e = 0; e < with.size(); ++e) {
       FoundEffect* as_told = told(effects_[e]);
       if (as_told == nullptr) continue;
-      const bool its_form_alone =
-          with[e].family == effects_[e].family && !with[e].family->of_one_mesh;
-      if (e == exchanged && !its_form_alone) {
+      if (e == exchanged && with[e].family != effects_[e].family) {
         if (with[e].family->id == as_told->id)
-          may_be_the_others(*as_told, with[e],
-                            fit.coefficients()[fit.first_column(static_cast<int>(e))]);
+          may_be_the_other_sensors(*as_told, with[e],
+                                   fit.coefficients()[fit.first_column(static_cast<int>(e))]);
         else
           cannot_be_told_from(*as_told, with[e].family->id);
         continue;
@@ -224,8 +223,9 @@ class Exchange {
         }
     }
   }
-  /// Of the two sensors or of another mesh, and these data do not say which.
-  void may_be_the_others(FoundEffect& effect, const DriveEffect& other, double coefficient) const {
+  /// One of the two sensors, and these data do not say which.
+  void may_be_the_other_sensors(FoundEffect& effect, const DriveEffect& other,
+                                double coefficient) const {
     const std::size_t told = effect.description.size();
     if (other.family->told)
       effect.description += ", or " +

@@ -82,6 +82,10 @@ class FlankGeometry {
   }
   /// Height as -1 ... +1 over the face.
   [[nodiscard]] double face_coordinate(double z_mm) const { return 2.0 * z_mm / face_width_ - 1.0; }
+  /// Length of the involute from the base circle to this roll length.
+  [[nodiscard]] double arc_at_roll_mm(double roll_mm) const {
+    return 0.5 * roll_mm * roll_mm / base_radius_;
+  }
   /// Rotation of the section at a height against that at z = 0.
   [[nodiscard]] double twist_rad(double z_mm) const {
     if (herringbone_ && z_mm > 0.5 * face_width_) return twist_per_mm_ * (face_width_ - z_mm);

@@ -28,8 +28,6 @@ enum MemoryValue : std::size_t {
 /// mean; by the mean of the rows after less that of those before, which noise of what is read
 /// slowly does not hide.
 enum HowOfMemory { kFromLeast, kFromMost, kByChange, kByRate };
-/// (of one that follows the row after, beside these)
-constexpr double kNextRow = 8.0;
 bool is_by_change(const DriveShape& s) { return s[kMemoryHow] >= double(kByChange); }
 
 /// Fewer rows than these: the row before alone.
@@ -241,53 +239,6 @@ DriveFamily memory(bool reads) {
 }
 
 }  // namespace
-
-DriveFamily unnamed_late_column() {
-  constexpr std::size_t kFewestRows = 40;
-  DriveFamily f = without_a_name();
-  f.parameters = {"amount_nm"};
-  f.shape_names = {"over"};
-  f.preference = 7;
-  f.stands_alone = true;
-  f.dearer = kDearerForms;
-  f.correction = "put the column right: move its values up by a row, and close the loop again";
-  f.shape_values = {{}};
-  f.shapes = no_shapes;
-  f.whole_shapes = [](const DriveContext& context) {
-    std::vector<DriveShape> shapes;
-    if (has_one_course(context) && context.table.points.size() >= kFewestRows &&
-        has_parts_over(context, 1.0) && has_memory_of(context, 1.0))
-      shapes.push_back({1.0});
-    return shapes;
-  };
-  f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& s,
-                  double* c) {
-    const std::array<double, 3> key{kOneRow, s[0], kNextRow};
-    const std::vector<double>& next = context.last_memories.of(key, [&] {
-      return means_beside(context.table, s[0], 0.5 * kOneRow, true);
-    });
-    const auto at = static_cast<std::size_t>(p.place);
-    c[0] = at < next.size() ? -context.lever(p) * next[at] / context.table.most_speed_rpm : 0.0;
-  };
-  f.figures = [](const DriveContext& context, const DriveShape&, double amount) {
-    return std::vector<Parameter>{figure_of("amplitude_nm", std::abs(amount)),
-                                  figure_of("nm_per_rpm", amount / context.table.most_speed_rpm)};
-  };
-  f.told = [](const DriveContext& context, const DriveShape&, double amount,
-              const std::vector<Parameter>& figures) {
-    return "a loss that grows with the speed that stands in the row after: " +
-           with_interval(figures[0], amount > 0.0 ? " N m more" : " N m less") +
-           printed(" at %.4g rpm", context.table.most_speed_rpm) +
-           " (the column of the speed is logged a row late?)";
-  };
-  f.words = [](const DriveModel&, const DriveShape&, const DriveContext*) {
-    return std::string("that follows the speed of the row after");
-  };
-  f.term_shapes = [](const DriveShape&) {
-    return std::vector<DriveShape>{{0.0, 1.0, 0.0, 0.0, 0.0}};
-  };
-  return f;
-}
 
 DriveFamily unnamed_memory() { return memory(false); }
 DriveFamily unnamed_reading_memory() { return memory(true); }

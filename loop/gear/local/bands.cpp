@@ -93,14 +93,12 @@ class BandSearch {
     if (!usable_) return {};
     std::optional<Bands> best;
     double most = 0.0;
-    for (const double other : {1.0, -1.0}) {
-      // Both sides together, alike or opposite; and each by itself.
-      const auto one = look(1.0, other);
-      if (one && one->second > most) {
-        most = one->second;
-        best = one->first;
+    // (one side alone is seen in either, and told by how much each has)
+    for (const bool opposite : {false, true})
+      if (auto found = look(opposite); found && found->second > most) {
+        most = found->second;
+        best = std::move(found->first);
       }
-    }
     return best;
   }
 
@@ -127,16 +125,15 @@ class BandSearch {
     return sum / kOfStrip;
   }
 
-  /// The sides' strips put together, the other one times its sign.
-  [[nodiscard]] Strips together(double one, double other) const {
+  /// The sides' strips put together, as they are or the other one turned over.
+  [[nodiscard]] Strips together(bool opposite) const {
     Strips both{Eigen::VectorXd::Zero(count_), Eigen::VectorXd::Zero(count_)};
     for (int k = 0; k < count_; ++k) {
-      const double a = strips_[1].root[k], b = strips_[0].root[k],
-                   weight = one * one * a * a + other * other * b * b;
+      const double a = strips_[1].root[k], b = strips_[0].root[k], weight = a * a + b * b;
       both.root[k] = std::sqrt(weight);
       if (weight > 0.0)
         both.value[k] =
-            (one * a * strips_[1].value[k] + other * b * strips_[0].value[k]) / both.root[k];
+            (a * strips_[1].value[k] + (opposite ? -b : b) * strips_[0].value[k]) / both.root[k];
     }
     return both;
   }
@@ -257,9 +254,9 @@ class BandSearch {
     return least;
   }
 
-  [[nodiscard]] std::optional<std::pair<Bands, double>> look(double one, double other) const {
+  [[nodiscard]] std::optional<std::pair<Bands, double>> look(bool opposite) const {
     constexpr double kGain = 80.0, kClearly = 25.0, kPart = 0.35;  // chi-square, of the gain
-    const Strips strips = together(one, other);
+    const Strips strips = together(opposite);
     Eigen::VectorXd smooth;
     const double plain = left_by(strips, {}, 3, &smooth);
     Eigen::VectorXd level_less = strips.value;
@@ -289,8 +286,8 @@ class BandSearch {
     if (gain < kGain || left_by_waves(strips, found.period_mm) < found.left + kClearly ||
         found.left - static_cast<double>(count_) > kPart * gain)
       return {};
-    return flight ? told_flight(strips, found, plain, gain, one, other)
-                  : told_bands(strips, found, gain, one, other, saw.left);
+    return flight ? told_flight(strips, found, plain, gain, opposite)
+                  : told_bands(strips, found, gain, opposite, saw.left);
   }
 
   /// How much each side has of a course: alike, opposite, or one alone. Empty: neither.
@@ -320,21 +317,20 @@ class BandSearch {
     if (std::abs(um[0] + um[1]) < within) return std::pair(FlankChoice::kBoth, 1.0);
     for (const std::size_t side : {0U, 1U})
       if (std::abs(um[side]) < within) {
-        const FlankChoice left_flank = flank_of(
-            geometry_,
-            geometry_.on_flank(
-                1, 1, 0.5 * (geometry_.root_form_roll_mm() + geometry_.tip_form_roll_mm()), 0.0));
-        const FlankChoice of_one = left_flank, of_other = left_flank == FlankChoice::kLeft
-                                                              ? FlankChoice::kRight
-                                                              : FlankChoice::kLeft;
-        return std::pair(side == 0 ? of_one : of_other, 0.0);
+        // (the other side has it)
+        return std::pair(
+            flank_of(geometry_, geometry_.on_flank(1, side == 0 ? 1 : -1,
+                                                   0.5 * (geometry_.root_form_roll_mm() +
+                                                          geometry_.tip_form_roll_mm()),
+                                                   0.0)),
+            0.0);
       }
     return {};
   }
 
   [[nodiscard]] std::optional<std::pair<Bands, double>> told_bands(const Strips& strips,
                                                                    Repeats found, double gain,
-                                                                   double one, double other,
+                                                                   bool opposite,
                                                                    double left_by_saw) const {
     constexpr double kClearly = 25.0;
     constexpr int kFewestEdges = 4;
@@ -345,8 +341,7 @@ class BandSearch {
       return {};
     const CourseOfBands course = [&](double z) { return band(z, found); };
     const auto flanks = flanks_of(course, 3);
-    if (!flanks ||
-        (flanks->first == FlankChoice::kBoth && (flanks->second != 0.0) != (one != other)))
+    if (!flanks || (flanks->first == FlankChoice::kBoth && (flanks->second != 0.0) != opposite))
       return {};
     Eigen::VectorXd x;
     (void)left_by(strips, {course}, 3, &x);
@@ -367,8 +362,8 @@ class BandSearch {
   /// A sawtooth beside just the slope that makes steps of it.
   [[nodiscard]] std::optional<std::pair<Bands, double>> told_flight(const Strips& strips,
                                                                     Repeats found, double plain,
-                                                                    double gain, double one,
-                                                                    double other) const {
+                                                                    double gain,
+                                                                    bool opposite) const {
     constexpr double kSlope = 0.1, kNoWorse = 12.0;
     found = refined(found, false, [&](const Repeats& r) {
       return left_by(strips, {[&](double z) { return std::floor((z - r.place_mm) / r.period_mm); }},
@@ -387,8 +382,7 @@ class BandSearch {
     const double rise = std::abs(x[3]) * face_ / found.period_mm;
     if (2.0 * std::abs(x[1]) > kSlope * rise) return {};
     const auto flanks = flanks_of(course, 3);
-    if (!flanks ||
-        (flanks->first == FlankChoice::kBoth && (flanks->second != 0.0) != (one != other)))
+    if (!flanks || (flanks->first == FlankChoice::kBoth && (flanks->second != 0.0) != opposite))
       return {};
     const Bands steps{{find_family("unnamed_flight"),
                        flanks->first,

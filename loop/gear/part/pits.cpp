@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "trueflank/loop/gear/local/pits.h"
+#include "trueflank/loop/gear/local/pits/pits.h"
 
 namespace trueflank::loop {
 

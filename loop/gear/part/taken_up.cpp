@@ -2,7 +2,6 @@
 // What the chosen effects leave is searched for forms; what these and the hold-out say of the
 // effects.
 #include "trueflank/loop/gear/part/taken_up.h"
-#include "trueflank/loop/gear/part/bands.h"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -18,6 +17,7 @@
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/fit/flank_courses.h"
 #include "trueflank/loop/gear/local/rotation_waves.h"
+#include "trueflank/loop/gear/part/bands.h"
 #include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/choice.h"
 #include "trueflank/loop/gear/part/clampings/clampings.h"

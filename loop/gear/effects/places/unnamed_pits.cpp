@@ -9,7 +9,7 @@
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/gear/effects/along_flank.h"
 #include "trueflank/loop/gear/effects/columns.h"
-#include "trueflank/loop/gear/effects/pits_of_flanks.h"
+#include "trueflank/loop/gear/effects/places/pits_of_flanks.h"
 #include "trueflank/loop/gear/effects/registry.h"
 
 namespace trueflank::loop::gear_effects {
@@ -28,15 +28,10 @@ double depth_of_pit(int hollow, double square) {
 
 namespace {
 
-/// Of a roll length: how far up the involute it is.
-double arc_at_roll_mm(const FlankGeometry& g, double roll_mm) {
-  return 0.5 * roll_mm * roll_mm / g.base_radius_mm();
-}
-
 double depth_at(const FlankGeometry& g, const Place& p, const EffectShape& shape) {
   if (p.surface != Surface::kFlank) return 0.0;
   const int hollow = static_cast<int>(shape[kPitsHollow]);
-  const double arc_mm = arc_at_roll_mm(g, p.roll_mm);
+  const double arc_mm = g.arc_at_roll_mm(p.roll_mm);
   double depth = 0.0;
   for (std::size_t i = kPitsValues; i + kValuesOfPit <= shape.size(); i += kValuesOfPit) {
     const double* const pit = shape.data() + i;
@@ -44,7 +39,7 @@ double depth_at(const FlankGeometry& g, const Place& p, const EffectShape& shape
       continue;
     const double half = 0.5 * pit[kPitWidth], up = p.z_mm - pit[kPitHeight];
     if (std::abs(up) >= kEndOfPit * half) continue;
-    const double along = arc_mm - arc_at_roll_mm(g, g.roll_at_radius_mm(0.5 * pit[kPitDiameter]));
+    const double along = arc_mm - g.arc_at_roll_mm(g.roll_at_radius_mm(0.5 * pit[kPitDiameter]));
     depth += pit[kPitDepth] * depth_of_pit(hollow, (along * along + up * up) / (half * half));
   }
   return depth;
