@@ -16,6 +16,7 @@
 #include <limits>
 
 #include "trueflank/base/arc_tangent.h"
+#include "trueflank/base/sine_series.h"
 
 extern "C" {
 // NOLINTBEGIN(bugprone-reserved-identifier): the linker's names
@@ -42,16 +43,10 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// A sum with this holds a number below 2^51 as its nearest integer.
-constexpr double kRoundsToInteger = 0x1.8p52;
-constexpr double kLargestReducedAngle = 1e6;
-// pi/2 in pieces of 33, 33 and 53 bits, pi and pi/2 in two of 53, ln 2 in pieces of 32 and 53 bits
-constexpr double kHalfPi1 = 0x1.921fb544p+0, kHalfPi2 = 0x1.0b4611a6p-34,
-                 kHalfPi3 = 0x1.3198a2e037073p-69;
+// pi and pi/2 in two pieces of 53 bits, ln 2 in pieces of 32 and 53 bits
 constexpr double kPi = kPiHigh;
 constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
 
-double nearest_integer(double x) { return (x + kRoundsToInteger) - kRoundsToInteger; }
 double absolute(double x) { return x < 0.0 ? -x : x; }
 bool is_negative(double x) { return std::bit_cast<std::int64_t>(x) < 0; }
 
@@ -77,39 +72,15 @@ struct ReducedAngle {
   unsigned quarters;
 };
 
-/// Requires: |x| <= kLargestReducedAngle, so that the first two products are exact.
+/// Requires: |x| <= kLargestReducedAngle.
 ReducedAngle reduced(double x) {
-  if (absolute(x) < 0.785) return {x, 0.0, 0};
-  const double k = nearest_integer(x * 0x1.45f306dc9c883p-1);
-  const double a = x - k * kHalfPi1;
-  const double b = k * kHalfPi2;
-  const double difference = a - b;  // and what its rounding lost (Knuth)
-  const double subtracted = a - difference;
-  const double lost = (a - (difference + subtracted)) + (subtracted - b);
-  const double rest = lost - k * kHalfPi3;
-  const double high = difference + rest;
-  return {high, (difference - high) + rest,
-          static_cast<unsigned>(static_cast<std::int32_t>(k)) & 3U};
+  if (absolute(x) < kReducedAlready) return {x, 0.0, 0};
+  const AngleOfQuarter<double> r = angle_of_quarter(x);
+  return {r.high, r.low, static_cast<unsigned>(static_cast<std::int32_t>(r.quarters)) & 3U};
 }
 
-// The two polynomials are Chebyshev's of (sin(r)/r - 1) / r^2 and of (cos(r) - 1 + r^2/2) / r^4 in
-// r^2; the sine is 1e-20 of itself off by it, the cosine 5e-19.
-double sine_of(const ReducedAngle& r) {
-  static constexpr std::array kSeries = {
-      -0x1.5555555555555p-3,  0x1.1111111111110p-7,  -0x1.a01a01a01992fp-13, 0x1.71de3a545f836p-19,
-      -0x1.ae645410e937bp-26, 0x1.61217d9252c03p-33, -0x1.ab16f5caa198ap-41};
-  const double z = r.high * r.high;
-  return r.high + (r.low * (1.0 - 0.5 * z) + r.high * z * polynomial(z, kSeries));
-}
-double cosine_of(const ReducedAngle& r) {
-  static constexpr std::array kSeries = {0x1.5555555555555p-5,  -0x1.6c16c16c16963p-10,
-                                         0x1.a01a019f4ddfdp-16, -0x1.27e4fa16cc2d1p-22,
-                                         0x1.1eeb67d026ec6p-29, -0x1.907cd8ff5ede7p-37};
-  const double z = r.high * r.high;
-  const double half = 0.5 * z;
-  const double head = 1.0 - half;
-  return head + (((1.0 - head) - half) + (z * z * polynomial(z, kSeries) - r.high * r.low));
-}
+double sine_of(const ReducedAngle& r) { return sine_within_quarter(r.high, r.low); }
+double cosine_of(const ReducedAngle& r) { return cosine_within_quarter(r.high, r.low); }
 double sine(const ReducedAngle& r) {
   const double value = (r.quarters & 1U) != 0 ? cosine_of(r) : sine_of(r);
   return (r.quarters & 2U) != 0 ? -value : value;
@@ -202,7 +173,7 @@ using namespace trueflank;
 
 double __wrap_sin(double x) {
   if (!(absolute(x) <= kLargestReducedAngle)) return __real_sin(x);
-  return absolute(x) < 0x1p-27 ? x : sine(reduced(x));
+  return absolute(x) < kIsItsSine ? x : sine(reduced(x));
 }
 double __wrap_cos(double x) {
   if (!(absolute(x) <= kLargestReducedAngle)) return __real_cos(x);
@@ -215,12 +186,12 @@ void __wrap_sincos(double x, double* sine_of_x, double* cosine_of_x) {
     return;
   }
   const ReducedAngle r = reduced(x);
-  *sine_of_x = absolute(x) < 0x1p-27 ? x : sine(r);
+  *sine_of_x = absolute(x) < kIsItsSine ? x : sine(r);
   *cosine_of_x = cosine(r);
 }
 double __wrap_tan(double x) {
   if (!(absolute(x) <= kLargestReducedAngle)) return __real_tan(x);
-  if (absolute(x) < 0x1p-27) return x;
+  if (absolute(x) < kIsItsSine) return x;
   const ReducedAngle r = reduced(x);
   return sine(r) / cosine(r);
 }

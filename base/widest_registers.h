@@ -31,4 +31,20 @@ void in_widest_registers(const Work& work) {
 }
 #endif
 
+/// Four numbers, for such loops; where the compiler, left to itself, takes one at a time. What such
+/// a loop asks for beside arrays is best copied into variables of its own: what is captured may lie
+/// in the arrays it writes.
+using FourDoubles [[gnu::vector_size(4 * sizeof(double))]] = double;
+
+/// The same anywhere in an array.
+using FourInArray
+    [[gnu::vector_size(4 * sizeof(double)), gnu::aligned(sizeof(double)), gnu::may_alias]] = double;
+
+TRUEFLANK_ALWAYS_INLINE inline void load(FourDoubles& four, const double* from) {
+  four = *reinterpret_cast<const FourInArray*>(from);
+}
+TRUEFLANK_ALWAYS_INLINE inline void store(const FourDoubles& four, double* to) {
+  *reinterpret_cast<FourInArray*>(to) = four;
+}
+
 }  // namespace trueflank

@@ -10,6 +10,7 @@
 #include <limits>
 #include <mutex>
 #include <span>
+#include <utility>
 
 #include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
@@ -209,9 +210,10 @@ class PoseSearch {
   /// Middle of the points' height range onto the middle of the face.
   void place_height(Pose& pose, const Points& points) const {
     std::vector<double> z;
+    z.reserve(points.size());
     for (const auto& p : points) z.push_back(pose(p)[2]);
-    pose.translation_mm.z() +=
-        0.5 * (geometry_.face_width_mm() - quantile(z, 0.005) - quantile(z, 0.995));
+    const double low = quantile(z, 0.005), high = quantile(std::move(z), 0.995);
+    pose.translation_mm.z() += 0.5 * (geometry_.face_width_mm() - low - high);
   }
 
   /// Axis on z, centre by the tip circle.

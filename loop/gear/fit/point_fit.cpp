@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <memory_resource>
 #include <optional>
@@ -132,29 +131,21 @@ static_assert(kPanel % 8 == 0);
 /// on any number of processors.
 constexpr std::size_t kRowsOfWork = 16384, kMostPieces = 8;
 
-/// The values of a column in a panel of rows stand beside each other.
-using ColumnOfPanel = std::array<double, kPanel>;
-
-using PanelOfColumns = std::vector<ColumnOfPanel>;
-
 /// Sums of squares and products of rows, gathered in panels; the lower triangle. The columns of a
 /// row are followed by a 1, whose products are the sums of the columns.
 class Gram {
  public:
-  /// `turned`, which others may use too, is where the rows of a panel are turned into columns;
   /// `room` gives the memory.
-  Gram(std::size_t columns, PanelOfColumns& turned, std::pmr::memory_resource& room)
+  Gram(std::size_t columns, std::pmr::memory_resource& room)
       : width_(columns + 1),
         sum_(width_ * (width_ + 1) / 2, &room),
-        rows_(kPanel * width_, &room),
-        turned_(turned) {
-    turned_.resize(width_);
-  }
+        panel_(kPanel * width_, &room) {}
   /// Adds the columns of a row times a factor.
   void add(const double* row, double factor) {
-    double* const to = rows_.data() + filled_ * width_;
-    for (std::size_t k = 0; k + 1 < width_; ++k) to[k] = factor * row[k];
-    to[width_ - 1] = factor;
+    double* to = panel_.data() + filled_;
+    const double* const end = row + (width_ - 1);
+    for (; row != end; ++row, to += kPanel) *to = factor * *row;
+    *to = factor;
     if (++filled_ == kPanel) flush();
   }
   /// Of the columns and the 1.
@@ -171,22 +162,24 @@ class Gram {
  private:
   void flush() {
     if (filled_ == 0) return;
-    std::fill(rows_.begin() + static_cast<std::ptrdiff_t>(filled_ * width_), rows_.end(), 0.0);
+    for (std::size_t k = 0; filled_ < kPanel && k < width_; ++k)
+      std::fill_n(panel_.data() + k * kPanel + filled_, kPanel - filled_, 0.0);
     filled_ = 0;
-    const ColumnOfPanel* const panel = turned_.data();
-    for (std::size_t k = 0; k < width_; ++k)
-      for (std::size_t r = 0; r < kPanel; ++r) turned_[k][r] = rows_[r * width_ + k];
     in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
       double* sum = sum_.data();
-      for (std::size_t i = 0; i < width_; ++i)
+      const double* const columns = panel_.data();
+      const std::size_t width = width_;
+      for (std::size_t i = 0; i < width; ++i)
         for (std::size_t j = 0; j <= i; ++j) {
-          Four even{}, odd{};
+          // Four parts of a sum (left to itself, the compiler divides the sums otherwise and
+          // shuffles).
+          FourDoubles even{}, odd{};
           for (std::size_t r = 0; r < kPanel; r += 8) {
-            Four a, b, c, d;
-            std::memcpy(&a, &panel[i][r], sizeof a);
-            std::memcpy(&b, &panel[j][r], sizeof b);
-            std::memcpy(&c, &panel[i][r + 4], sizeof c);
-            std::memcpy(&d, &panel[j][r + 4], sizeof d);
+            FourDoubles a, b, c, d;
+            load(a, columns + i * kPanel + r);
+            load(b, columns + j * kPanel + r);
+            load(c, columns + i * kPanel + r + 4);
+            load(d, columns + j * kPanel + r + 4);
             even += a * b;
             odd += c * d;
           }
@@ -195,11 +188,8 @@ class Gram {
         }
     });
   }
-  /// Four parts of a sum (left to itself, the compiler divides the sums otherwise and shuffles).
-  using Four [[gnu::vector_size(4 * sizeof(double))]] = double;
   std::size_t width_;
-  std::pmr::vector<double> sum_, rows_;
-  PanelOfColumns& turned_;
+  std::pmr::vector<double> sum_, panel_;  ///< in the panel the rows of a column stand together
   std::size_t filled_ = 0;
 };
 
@@ -272,6 +262,13 @@ struct PointFit::RowPanel {
   /// `visit(r, columns)` for every one of the rows, kPanel at most; the columns may be written to.
   template <class Visit>
   void for_each(const PointFit& fit, const std::vector<std::size_t>& rows, const Visit& visit) {
+    if (fit.what_ != DeviationsOf::kDesign) {
+      for (std::size_t r = 0; r < rows.size(); ++r) {
+        fit.features(rows[r], one.data(), effects);
+        visit(r, one.data());
+      }
+      return;
+    }
     anew.clear();
     for (const std::size_t row : rows)
       if (fit.as_it_was(row)) anew.push_back(row);
@@ -303,8 +300,7 @@ PointFit::Sums PointFit::sums_of(const std::vector<PatchOfRow>& patches, std::si
   // (few large pieces of memory: threads that ask for many wait for each other)
   std::pmr::monotonic_buffer_resource room;
   std::vector<std::optional<Gram>> learnt(patches_.units), other(patches_.units);
-  PanelOfColumns turned;
-  Gram plain_held(columns, turned, room), plain_other(columns, turned, room);
+  Gram plain_held(columns, room), plain_other(columns, room);
   RowPanel panel(*this, effects_.size());
   std::vector<std::size_t> rows;
   Eigen::VectorXd apart(n);
@@ -321,7 +317,7 @@ PointFit::Sums PointFit::sums_of(const std::vector<PatchOfRow>& patches, std::si
       panel.subtract(whole_zero_means_[observation.trace]);
     }
     auto& unit = (held || in_trace ? other : learnt)[patch.unit];
-    if (!unit) unit.emplace(columns, turned, room);
+    if (!unit) unit.emplace(columns, room);
     unit->add(values, patch.root);
     if (!counts) return;
     (held && !in_trace ? plain_held : plain_other).add(values, 1.0);
@@ -557,6 +553,7 @@ std::shared_ptr<const std::vector<float>> PointFit::residuals_um() const {
     known = std::make_shared<const std::vector<float>>(residuals_with(coefficients_));
     residuals_um_ = known;
   }
+  kept_residuals_um_ = known;
   return known;
 }
 
@@ -575,11 +572,13 @@ std::vector<float> PointFit::residuals_with(const Eigen::VectorXd& coefficients)
   run_pieces(pieces_of(table_.rows.size()), [&](std::size_t, std::size_t begin, std::size_t end) {
     RowPanel panel(*this, asked);
     std::vector<std::size_t> rows;
+    const double* const times = coefficients.data();
+    const int columns = columns_;
     const auto tell_row = [&](std::size_t r, const double* values) {
       if (const int trace = table_.rows[rows[r]].trace; trace >= 0)
         panel.subtract(whole_zero_means_[trace]);
-      double left = values[columns_];
-      for (int k = 0; k < columns_; ++k) left -= coefficients[k] * values[k];
+      double left = values[columns];
+      for (int k = 0; k < columns; ++k) left -= times[k] * values[k];
       left_um[rows[r]] = static_cast<float>(left);
     };
     const auto tell_panel = [&] {

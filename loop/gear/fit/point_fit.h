@@ -75,8 +75,10 @@ class PointFit {
   [[nodiscard]] double residual_square(const std::vector<bool>& with_effect) const;
 
   /// Residual of every row [um] as fitted with all effects. Asked for again, they are the same as
-  /// long as somebody holds them.
+  /// long as the fit, or somebody else, holds them.
   [[nodiscard]] std::shared_ptr<const std::vector<float>> residuals_um() const;
+  /// Leaves it to others to hold them: they take memory for every row.
+  void forget_residuals() const { kept_residuals_um_.reset(); }
   /// The same with none of the effects.
   [[nodiscard]] std::vector<float> residuals_without_effects_um() const;
 
@@ -141,6 +143,7 @@ class PointFit {
   Eigen::MatrixXd covariance_;
   std::vector<double> degrees_, retained_;
   mutable std::weak_ptr<const std::vector<float>> residuals_um_;
+  mutable std::shared_ptr<const std::vector<float>> kept_residuals_um_;
   double noise_um_ = 0.0, residual_square_ = 0.0;
   int observations_ = 0, held_out_ = 0, zeros_ = 0;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "trueflank/base/many_sines.h"
 #include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
 #include "trueflank/base/widest_registers.h"
@@ -332,30 +333,59 @@ class Spectrum {
 
   /// Amplitudes of a wave and of those some steps of wavelength off.
   [[nodiscard]] Amplitudes amplitudes_around(const FlankWaves& wave, double step) const {
-    std::array<std::array<Complex, kSteps>, kSteps> sums{};
-    double count = 0.0;
+    std::vector<double> um, angles;  // of the values; of their waves and of both steps
     for (const Value& value : values_) {
       if ((value.side == 1) != (wave.side > 0)) continue;
       const double phase = (wave.waves_profile - kAround * step) * value.u +
                            (wave.waves_face - kAround * step) * value.v +
                            wave.order * (value.tooth - 1) / teeth_;
-      const Complex step_u = std::polar(1.0, -kTwoPi * step * value.u),
-                    step_v = std::polar(1.0, -kTwoPi * step * value.v);
-      Complex of_row = value.um * std::polar(1.0, -kTwoPi * phase);
-      for (auto& row : sums) {
-        Complex turned = of_row;
-        for (Complex& sum : row) {
-          sum += turned;
-          turned = product(turned, step_v);
-        }
-        of_row = product(of_row, step_u);
-      }
-      count += 1.0;
+      um.push_back(value.um);
+      for (const double angle :
+           {-kTwoPi * phase, -kTwoPi * step * value.u, -kTwoPi * step * value.v})
+        angles.push_back(angle);
     }
+    std::vector<double> sines(angles.size()), cosines(angles.size());
+    sines_and_cosines(angles, sines, cosines);
+    // Of all steps over the profile at once, in whole registers, by steps over the face.
+    constexpr std::size_t kInRegisters = 8;
+    using OfRows = std::array<double, kInRegisters>;
+    std::array<OfRows, kSteps> real{}, imaginary{};
+    OfRows row_real{}, row_imaginary{};
+    for (std::size_t k = 0; k < um.size(); ++k) {
+      const auto turn = [&](std::size_t of) {
+        return Complex(cosines[3 * k + of], sines[3 * k + of]);
+      };
+      const Complex step_u = turn(1), step_v = turn(2);
+      Complex of_row = um[k] * turn(0);
+      for (std::size_t i = 0; i < kSteps; ++i, of_row = product(of_row, step_u)) {
+        row_real[i] = of_row.real();
+        row_imaginary[i] = of_row.imag();
+      }
+      in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
+        const double turn_real = step_v.real(), turn_imaginary = step_v.imag();
+        for (std::size_t i = 0; i < kInRegisters; i += 4) {
+          FourDoubles re, im;
+          load(re, row_real.data() + i);
+          load(im, row_imaginary.data() + i);
+          for (std::size_t j = 0; j < kSteps; ++j) {
+            FourDoubles sum;
+            load(sum, real[j].data() + i);
+            store(sum + re, real[j].data() + i);
+            load(sum, imaginary[j].data() + i);
+            store(sum + im, imaginary[j].data() + i);
+            const FourDoubles next = re * turn_real - im * turn_imaginary;
+            im = re * turn_imaginary + im * turn_real;
+            re = next;
+          }
+        }
+      });
+    }
+    const auto count = static_cast<double>(um.size());
     Amplitudes amplitudes{};
     for (std::size_t i = 0; i < kSteps; ++i)
       for (std::size_t j = 0; j < kSteps; ++j)
-        amplitudes[i][j] = 2.0 * std::abs(sums[i][j]) / std::max(1.0, count);
+        amplitudes[i][j] =
+            2.0 * std::abs(Complex(real[j][i], imaginary[j][i])) / std::max(1.0, count);
     return amplitudes;
   }
 

@@ -87,7 +87,10 @@ class NuisanceColumns {
   [[nodiscard]] int first_of(std::size_t scan) const { return sources_[scan].first; }
   /// The columns at a place of a source.
   void set(const Place& place, ObservationKind kind, int source, double* values) const {
-    for (int k = 0; k < count_; ++k) values[k] = 0.0;
+    if (count_ == kOfFreePose)  // (as a rule: no loop)
+      for (int k = 0; k < kOfFreePose; ++k) values[k] = 0.0;
+    else
+      for (int k = 0; k < count_; ++k) values[k] = 0.0;
     add(place, kind, source, 1.0, values);
   }
   /// Adds weight times the columns at a place of a source.

@@ -13,6 +13,7 @@
 #include <set>
 #include <span>
 
+#include "trueflank/base/many_sines.h"
 #include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
 #include "trueflank/base/widest_registers.h"
@@ -117,13 +118,17 @@ struct ManyWaves {
 void add_values(std::span<const double> rotation, std::span<const double> um, int least,
                 std::vector<ManyWaves>& sums) {
   ManyWaves step, wave;
+  std::array<double, 2 * kAtOnce> angles{}, sines, cosines;
   for (std::size_t i = 0; i < um.size(); ++i) {
-    const std::complex<double> turn = std::polar(1.0, rotation[i]),
-                               first = std::polar(1.0, least * rotation[i]) * um[i];
-    step.real[i] = turn.real();
-    step.imaginary[i] = turn.imag();
-    wave.real[i] = first.real();
-    wave.imaginary[i] = first.imag();
+    angles[i] = rotation[i];
+    angles[kAtOnce + i] = least * rotation[i];
+  }
+  sines_and_cosines(angles, sines, cosines);
+  for (std::size_t i = 0; i < um.size(); ++i) {
+    step.real[i] = cosines[i];
+    step.imaginary[i] = sines[i];
+    wave.real[i] = cosines[kAtOnce + i] * um[i];
+    wave.imaginary[i] = sines[kAtOnce + i] * um[i];
   }
   // (left to itself, the compiler takes one value at a time)
   using Four [[gnu::vector_size(4 * sizeof(double))]] = double;

@@ -7,8 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "trueflank/base/many_sines.h"
 #include "trueflank/base/units.h"
 #include "trueflank/base/widest_registers.h"
+#include "trueflank/loop/gear/local/four_waves.h"
 
 // Fourier sums over the values of one flank, of all waves that are asked about at once.
 namespace trueflank::loop::flank_waves {
@@ -36,40 +38,73 @@ class WaveProducts {
  public:
   /// At most kWavesAtOnce of them.
   void add(std::span<const Value* const> values) {
-    std::array<std::array<double, kAlong>, kWavesAtOnce> along{};
-    std::array<std::array<double, kRow>, kWavesAtOnce> across{};
+    std::array<double, 2 * kWavesAtOnce> angles{}, sines, cosines;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const Complex step_u = std::polar(1.0, kPi * values[i]->u),
-                    step_v = std::polar(1.0, kPi * values[i]->v);
-      Complex of_v = 1.0;
-      for (std::size_t b = 0; b < kHalf; ++b, of_v = product(of_v, step_v)) {
-        across[i][b] = of_v.real();
-        across[i][kHalf + b] = of_v.imag();
-      }
-      Complex of_u = values[i]->um;
-      for (std::size_t a = 0; a < kAlong; a += 2, of_u = product(of_u, step_u)) {
-        along[i][a] = of_u.real();
-        along[i][a + 1] = of_u.imag();
-      }
+      angles[i] = kPi * values[i]->u;
+      angles[kWavesAtOnce + i] = kPi * values[i]->v;
     }
+    sines_and_cosines(angles, sines, cosines);
+    FourWaves over_profile, over_face;  // these from one wave on
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      over_profile.real[i] = values[i]->um;
+      over_profile.turn_real[i] = cosines[i];
+      over_profile.turn_imaginary[i] = sines[i];
+      over_face.real[i] = over_face.turn_real[i] = cosines[kWavesAtOnce + i];
+      over_face.imaginary[i] = over_face.turn_imaginary[i] = sines[kWavesAtOnce + i];
+    }
+    std::array<std::array<double, kRow>, kWavesAtOnce> across{};
+    std::array<std::array<double, 2 * kAlong>, kWavesAtOnce> along;
+    for (std::size_t i = 0; i < values.size(); ++i) across[i][kConstant] = 1.0;
     in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
-      for (std::size_t a = 0; a < kAlong; ++a)
-        for (std::size_t b = 0; b < kRow; ++b)
-          sums_[a][b] += along[0][a] * across[0][b] + along[1][a] * across[1][b] +
-                         along[2][a] * across[2][b] + along[3][a] * across[3][b];
+      write_waves(over_face, kFace, across[0].data(), across[0].data() + kFace, kRow);
+      write_waves(over_profile, kAlong, along[0].data(), along[0].data() + kAlong, 2 * kAlong);
+      const double* const rows = across[0].data();
+      for (std::size_t a = 0; a < 2 * kAlong; ++a) {
+        if (!is_asked(a)) continue;
+        const double factor[kWavesAtOnce] = {along[0][a], along[1][a], along[2][a], along[3][a]};
+        double* const sums = sums_[a].data();
+        const auto add_four = [&](std::size_t b) TRUEFLANK_ALWAYS_INLINE {
+          FourDoubles sum, first, second, third, last;
+          load(sum, sums + b);
+          load(first, rows + b);
+          load(second, rows + kRow + b);
+          load(third, rows + 2 * kRow + b);
+          load(last, rows + 3 * kRow + b);
+          sum += factor[0] * first + factor[1] * second + factor[2] * third + factor[3] * last;
+          store(sum, sums + b);
+        };
+        for (std::size_t b = 0; b < kConstant; b += 16) {
+          add_four(b);
+          add_four(b + 4);
+          add_four(b + 8);
+          add_four(b + 12);
+        }
+        add_four(kConstant);
+      }
     });
   }
   /// Sum of um exp(-i pi (a u + b v)), or with `sign` -1 of the wave that falls.
   [[nodiscard]] Complex sum(int a, int b, double sign) const {
-    const auto i = 2 * static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
-    return {sums_[i][j] - sign * sums_[i + 1][kHalf + j],
-            -sums_[i + 1][j] - sign * sums_[i][kHalf + j]};
+    const OfRow &real = sums_[static_cast<std::size_t>(a)],
+                &imaginary = sums_[kAlong + static_cast<std::size_t>(a)];
+    if (b == 0) return {real[kConstant], -imaginary[kConstant]};
+    const auto j = static_cast<std::size_t>(b - 1);
+    return {real[j] - sign * imaginary[kFace + j], -imaginary[j] - sign * real[kFace + j]};
   }
 
  private:
-  static constexpr std::size_t kAlong = 2 * (kProfile + 1), kHalf = kFace + 1, kRow = 2 * kHalf + 2;
-  static_assert(kWavesAtOnce == 4 && kRow % 4 == 0);
-  std::array<std::array<double, kRow>, kAlong> sums_{};
+  /// Real parts of the waves over the profile, then imaginary ones, in whole registers; those over
+  /// the face, and after them the wave that is constant.
+  static constexpr std::size_t kAlong = (kProfile + 4) / 4 * 4, kConstant = 2 * kFace,
+                               kRow = kConstant + 4;
+  static_assert(kWavesAtOnce == 4 && kConstant % 16 == 0);
+  using OfRow = std::array<double, kRow>;
+
+  /// The constant has no imaginary part.
+  static constexpr bool is_asked(std::size_t along) {
+    return along % kAlong <= kProfile && along != kAlong;
+  }
+  std::array<OfRow, 2 * kAlong> sums_{};
 };
 
 /// A flank with fewer values tells nothing of waves in it.

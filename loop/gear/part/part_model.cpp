@@ -57,6 +57,11 @@ std::shared_ptr<const PointFit> fit_of(const PartModel& model, const std::vector
     found = model.fits.insert(model.fits.end(), std::move(fit));
   }
   std::rotate(model.fits.begin(), found, found + 1);
+  // (what a fit leaves is asked several times while it is asked for, and takes memory for every
+  // row)
+  constexpr std::size_t kMostKept = 500'000;
+  if (model.table->rows.size() > kMostKept)
+    for (std::size_t k = 1; k < model.fits.size(); ++k) model.fits[k]->forget_residuals();
   return model.fits.front();
 }
 

@@ -15,7 +15,7 @@ PlaneValues values_in_plane(const FlankGeometry& geometry, const Observations& t
   const ThinnedRows some(values.rows, kRowsAsked);
   double sum = 0.0;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    if (!used[i] || table.rows[i].kind != ObservationKind::kScanFlank || !some.has(i)) continue;
+    if (!some.has(i) || !used[i] || table.rows[i].kind != ObservationKind::kScanFlank) continue;
     const Place& place = table.place(table.rows[i]);
     values.um.push_back(row_um[i]);
     sum += row_um[i];

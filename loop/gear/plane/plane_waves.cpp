@@ -8,12 +8,14 @@
 #include <utility>
 #include <vector>
 
+#include "trueflank/base/many_sines.h"
 #include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
 #include "trueflank/base/widest_registers.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/gear/effect.h"
 #include "trueflank/loop/gear/effects/along_flank.h"
+#include "trueflank/loop/gear/local/four_waves.h"
 #include "trueflank/loop/gear/plane/plane_values.h"
 
 namespace trueflank::loop {
@@ -40,71 +42,133 @@ PlaneGain gain_of(const std::complex<double>& product, const std::complex<double
   return {cosine * product.real() + sine * product.imag(), std::hypot(cosine, sine)};
 }
 
-/// Adds waves times a factor, and their squares times another; no two of the arrays are the same.
-TRUEFLANK_ALWAYS_INLINE inline void add_waves(std::size_t count, const double* __restrict real,
-                                              const double* __restrict imaginary, double product,
-                                              double square, double* __restrict product_real,
-                                              double* __restrict product_imaginary,
-                                              double* __restrict square_real,
-                                              double* __restrict square_imaginary) {
-  for (std::size_t k = 0; k < count; ++k) {
-    const double re = real[k], im = imaginary[k];
-    product_real[k] += product * re;
-    product_imaginary[k] += product * im;
-    square_real[k] += square * (re * re - im * im);
-    square_imaginary[k] += square * (2.0 * re * im);
+/// A row of numbers for each of four values.
+struct FourRows {
+  explicit FourRows(std::size_t count) : apart(count), real(4 * count), imaginary(4 * count) {}
+  std::size_t apart;
+  std::vector<double> real, imaginary;
+};
+
+/// Waves of so many lengths and more stand in whole registers.
+constexpr std::size_t in_fours(std::size_t count) { return (count + 3) / 4 * 4; }
+
+/// Sums of waves of a row of lengths, real and imaginary parts apart.
+struct WaveSums {
+  explicit WaveSums(std::size_t count) : real(count), imaginary(count) {}
+  [[nodiscard]] std::complex<double> of(std::size_t k) const { return {real[k], imaginary[k]}; }
+  std::vector<double> real, imaginary;
+};
+
+/// Adds the waves at four values, one after the other.
+TRUEFLANK_ALWAYS_INLINE inline void add_waves(const FourRows& at, WaveSums& sums) {
+  const double *const real = at.real.data(), *const imaginary = at.imaginary.data();
+  double *const sum_real = sums.real.data(), *const sum_imaginary = sums.imaginary.data();
+  const std::size_t count = at.apart;
+  for (std::size_t k = 0; k < count; k += 4) {
+    FourDoubles of_real, of_imaginary;
+    load(of_real, sum_real + k);
+    load(of_imaginary, sum_imaginary + k);
+    for (std::size_t i = 0; i < 4; ++i) {
+      FourDoubles re, im;
+      load(re, real + i * count + k);
+      load(im, imaginary + i * count + k);
+      of_real += re;
+      of_imaginary += im;
+    }
+    store(of_real, sum_real + k);
+    store(of_imaginary, sum_imaginary + k);
+  }
+}
+/// Adds them times a factor each, and their squares times another.
+TRUEFLANK_ALWAYS_INLINE inline void add_waves(const FourRows& at,
+                                              const std::array<double, 4>& product,
+                                              const std::array<double, 4>& square,
+                                              WaveSums& products, WaveSums& squares) {
+  const double *const real = at.real.data(), *const imaginary = at.imaginary.data();
+  double *const product_real = products.real.data(),
+                *const product_imaginary = products.imaginary.data(),
+                *const square_real = squares.real.data(),
+                *const square_imaginary = squares.imaginary.data();
+  const std::size_t count = at.apart;
+  const double of_product[4] = {product[0], product[1], product[2], product[3]},
+               of_square[4] = {square[0], square[1], square[2], square[3]};
+  for (std::size_t k = 0; k < count; k += 4) {
+    FourDoubles sums[4];
+    load(sums[0], product_real + k);
+    load(sums[1], product_imaginary + k);
+    load(sums[2], square_real + k);
+    load(sums[3], square_imaginary + k);
+    for (std::size_t i = 0; i < 4; ++i) {
+      FourDoubles re, im;
+      load(re, real + i * count + k);
+      load(im, imaginary + i * count + k);
+      sums[0] += of_product[i] * re;
+      sums[1] += of_product[i] * im;
+      sums[2] += of_square[i] * (re * re - im * im);
+      sums[3] += of_square[i] * (2.0 * re * im);
+    }
+    store(sums[0], product_real + k);
+    store(sums[1], product_imaginary + k);
+    store(sums[2], square_real + k);
+    store(sums[3], square_imaginary + k);
   }
 }
 
-/// Sums over values of waves of a row of wavelengths: of either shift, real and imaginary parts
-/// apart, as registers hold them.
-struct PlaneSums {
-  explicit PlaneSums(std::size_t count)
-      : real(count), imaginary(count), of(kSums, std::vector<double>(count)) {}
-  enum Sum : std::size_t { kProductReal, kProductImaginary, kSquareReal, kSquareImaginary };
-  static constexpr std::size_t kSums = 8;  // those of a shift, then of the other
-  [[nodiscard]] std::complex<double> sum(std::size_t along, Sum real_part, std::size_t k) const {
-    return {of[4 * along + real_part][k], of[4 * along + real_part + 1][k]};
+/// Unit vectors in many directions.
+struct Turns {
+  explicit Turns(const std::vector<double>& angles) : cosine(angles.size()), sine(angles.size()) {
+    sines_and_cosines(angles, sine, cosine);
   }
-  /// Adds a value, with the waves as they are at it.
-  void add(double nx, double ny, double um) {
-    const std::array<double, 4> factor{nx * um, ny * um, nx * nx, ny * ny};
-    in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
-      for (const std::size_t along : {0U, 1U})
-        add_waves(real.size(), real.data(), imaginary.data(), factor[along], factor[along + 2],
-                  of[4 * along].data(), of[4 * along + 1].data(), of[4 * along + 2].data(),
-                  of[4 * along + 3].data());
-    });
-  }
-  std::vector<double> real, imaginary;  ///< of the waves at a value
-  std::vector<std::vector<double>> of;
+  std::vector<double> cosine, sine;
 };
+
+/// From value i on, as far as there are values.
+FourWaves waves_at(const Turns& first, const Turns& turn, std::size_t i) {
+  FourWaves waves;
+  for (std::size_t k = 0; k < std::min<std::size_t>(4, first.sine.size() - i); ++k) {
+    waves.real[k] = first.cosine[i + k];
+    waves.imaginary[k] = first.sine[i + k];
+    waves.turn_real[k] = turn.cosine[i + k];
+    waves.turn_imaginary[k] = turn.sine[i + k];
+  }
+  return waves;
+}
 
 /// Gains of waves over a coordinate, of either shift, from a number of waves over the width on.
 std::array<std::vector<PlaneGain>, 2> plane_gains(const PlaneValues& values, int by,
                                                   double width_mm, double first, double step,
                                                   std::size_t count) {
-  PlaneSums sums(count);
+  const std::size_t rows = values.um.size();
+  std::vector<double> first_angles, steps;
+  for (const double at_mm : values.at_mm[static_cast<std::size_t>(by)]) {
+    const double angle = kTwoPi * at_mm / width_mm;
+    first_angles.push_back(first * angle);
+    steps.push_back(step * angle);
+  }
+  const Turns of_first(first_angles), of_step(steps);
+  FourRows at(in_fours(count));
+  std::array<WaveSums, 2> products{WaveSums(at.apart), WaveSums(at.apart)}, squares = products;
   std::array<double, 2> normals{};
-  for (std::size_t i = 0; i < values.um.size(); ++i) {
-    const double angle = kTwoPi * values.at_mm[static_cast<std::size_t>(by)][i] / width_mm;
-    const std::complex<double> turn = std::polar(1.0, step * angle);
-    std::complex<double> wave = std::polar(1.0, first * angle);
-    const double nx = values.normal[0][i], ny = values.normal[1][i];
-    normals[0] += nx * nx;
-    normals[1] += ny * ny;
-    for (std::size_t k = 0; k < count; ++k) {
-      const double real = sums.real[k] = wave.real(), imaginary = sums.imaginary[k] = wave.imag();
-      wave = {real * turn.real() - imaginary * turn.imag(),
-              real * turn.imag() + imaginary * turn.real()};
-    }
-    sums.add(nx, ny, values.um[i]);
+  for (std::size_t i = 0; i < rows; i += 4) {
+    const FourWaves waves = waves_at(of_first, of_step, i);
+    std::array<std::array<double, 4>, 2> product{}, square{};
+    for (std::size_t k = 0; k < std::min<std::size_t>(4, rows - i); ++k)
+      for (const std::size_t along : {0U, 1U}) {
+        const double normal = values.normal[along][i + k];
+        normals[along] += normal * normal;
+        product[along][k] = normal * values.um[i + k];
+        square[along][k] = normal * normal;
+      }
+    in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
+      write_waves(waves, at.apart, at.real.data(), at.imaginary.data(), at.apart);
+      add_waves(at, product[0], square[0], products[0], squares[0]);
+      add_waves(at, product[1], square[1], products[1], squares[1]);
+    });
   }
   std::array<std::vector<PlaneGain>, 2> found;
   for (const std::size_t along : {0U, 1U})
     for (std::size_t k = 0; k < count; ++k)
-      found[along].push_back(gain_of(sums.sum(along, PlaneSums::kProductReal, k),
-                                     sums.sum(along, PlaneSums::kSquareReal, k), normals[along]));
+      found[along].push_back(gain_of(products[along].of(k), squares[along].of(k), normals[along]));
   return found;
 }
 
@@ -155,30 +219,40 @@ struct StripesOfGrid {
 };
 
 StripesOfGrid stripes_of_grid(const PlaneValues& values, double width_mm) {
-  const std::size_t count = values.um.size();
   StripesOfGrid found;
+  std::vector<double> um, x, y, steps;
+  for (std::size_t i = 0; i < values.um.size(); i += 3) {
+    um.push_back(values.um[i]);
+    x.push_back(kTwoPi * values.at_mm[0][i] / width_mm);
+    y.push_back(kTwoPi * values.at_mm[1][i] / width_mm);
+    steps.push_back(kStripeStep * y.back());
+  }
+  const Turns of_step(steps);
+  const auto rows = static_cast<double>(um.size());
   std::vector<std::vector<double>> squares(static_cast<std::size_t>(kStripeSide) + 1);
   for_each_piece(squares.size(), [&](std::size_t k) {
     const double along_x = static_cast<double>(k) * kStripeStep;
     constexpr std::size_t kAll = 2 * kStripeSide + 1;
-    std::array<double, kAll> real{}, imaginary{};
-    double rows = 0.0;
-    for (std::size_t i = 0; i < count; i += 3) {
-      rows += 1.0;
-      const double x = kTwoPi * values.at_mm[0][i] / width_mm,
-                   y = kTwoPi * values.at_mm[1][i] / width_mm;
-      const std::complex<double> turn = std::polar(1.0, kStripeStep * y);
-      std::complex<double> wave =
-          values.um[i] * std::polar(1.0, along_x * x - kStripeSide * kStripeStep * y);
-      for (std::size_t j = 0; j < kAll; ++j) {
-        real[j] += wave.real();
-        imaginary[j] += wave.imag();
-        wave = {wave.real() * turn.real() - wave.imag() * turn.imag(),
-                wave.real() * turn.imag() + wave.imag() * turn.real()};
+    std::vector<double> angles;
+    for (std::size_t i = 0; i < um.size(); ++i)
+      angles.push_back(along_x * x[i] - kStripeSide * kStripeStep * y[i]);
+    const Turns first(angles);
+    FourRows at(in_fours(kAll));
+    WaveSums sums(at.apart);
+    for (std::size_t i = 0; i < um.size(); i += 4) {
+      FourWaves waves = waves_at(first, of_step, i);
+      for (std::size_t v = 0; v < std::min<std::size_t>(4, um.size() - i); ++v) {
+        waves.real[v] *= um[i + v];
+        waves.imaginary[v] *= um[i + v];
       }
+      in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
+        write_waves(waves, at.apart, at.real.data(), at.imaginary.data(), at.apart);
+        add_waves(at, sums);
+      });
     }
     for (std::size_t j = 0; j < kAll; ++j)
-      squares[k].push_back(2.0 * (real[j] * real[j] + imaginary[j] * imaginary[j]) / rows);
+      squares[k].push_back(
+          2.0 * (sums.real[j] * sums.real[j] + sums.imaginary[j] * sums.imaginary[j]) / rows);
   });
   for (std::size_t k = 0; k < squares.size(); ++k)
     for (std::size_t j = 0; j < squares[k].size(); ++j) {
@@ -193,13 +267,16 @@ StripesOfGrid stripes_of_grid(const PlaneValues& values, double width_mm) {
 }
 
 PlaneGain gain_of_stripes(const PlaneValues& values, double width_mm, const WaveVector& wave) {
+  std::vector<double> angles;
+  for (std::size_t i = 0; i < values.um.size(); ++i)
+    angles.push_back(kTwoPi * (wave[0] * values.at_mm[0][i] + wave[1] * values.at_mm[1][i]) /
+                     width_mm);
+  const Turns turns(angles);
   std::complex<double> product, squares;
   for (std::size_t i = 0; i < values.um.size(); ++i) {
-    const double angle =
-        kTwoPi * (wave[0] * values.at_mm[0][i] + wave[1] * values.at_mm[1][i]) / width_mm;
-    const std::complex<double> turn = std::polar(1.0, angle);
-    product += values.um[i] * turn;
-    squares += turn * turn;
+    const double cosine = turns.cosine[i], sine = turns.sine[i];
+    product += std::complex<double>(values.um[i] * cosine, values.um[i] * sine);
+    squares += std::complex<double>(cosine * cosine - sine * sine, cosine * sine + sine * cosine);
   }
   return gain_of(product, squares, static_cast<double>(values.um.size()));
 }
