@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
@@ -30,6 +31,7 @@
 #include "trueflank/loop/gear/plane/plane_waves.h"
 #include "trueflank/loop/gear/remainder_around.h"
 #include "trueflank/loop/gear/remainder_values.h"
+#include "trueflank/loop/gear/table/scanned_flank_rows.h"
 
 namespace trueflank::loop {
 namespace {
@@ -44,6 +46,7 @@ class RemainderSearch {
 
   std::vector<RemainderFinding> run() {
     used_ = rows_looked_at(table_, patches_, which_);
+    scanned_ = scanned_flank_rows(table_, used_);
     // None of these asks the others.
     auto spots = begun_beside([this] {
       return which_ == RemainderOf::kAll ? spots_of_scans(geometry_, table_, patches_, row_um_)
@@ -52,11 +55,11 @@ class RemainderSearch {
     auto spectrum = begun_beside([this] { return spectrum_across(); });
     auto rotation = begun_beside([this] { return wave_over_rotation(); });
     auto plane =
-        begun_beside([this] { return likeliest_plane_wave(geometry_, table_, row_um_, used_); });
-    auto stripes =
-        begun_beside([this] { return likeliest_plane_stripes(geometry_, table_, row_um_, used_); });
-    auto ridge =
-        begun_beside([this] { return likeliest_slanted_ridge(geometry_, table_, row_um_, used_); });
+        begun_beside([this] { return likeliest_plane_wave(geometry_, table_, row_um_, scanned_); });
+    auto stripes = begun_beside(
+        [this] { return likeliest_plane_stripes(geometry_, table_, row_um_, scanned_); });
+    auto ridge = begun_beside(
+        [this] { return likeliest_slanted_ridge(geometry_, table_, row_um_, scanned_); });
     values_ = gather_values(geometry_, table_, patches_, row_um_, which_, used_);
     tell_loud_traces();
     tell_rougher_teeth();
@@ -563,6 +566,7 @@ class RemainderSearch {
   const std::vector<float>& row_um_;
   RemainderOf which_;
   std::vector<bool> used_;
+  std::vector<std::uint32_t> scanned_;  ///< used rows of scanned flanks
   RemainderValues values_;
   std::map<CourseKey, std::vector<MemberScatter>> trace_scatters_;
   int looks_ = 0;

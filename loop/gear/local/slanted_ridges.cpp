@@ -381,13 +381,12 @@ struct RidgeCellsOfSide {
 std::optional<SlantedRidge> likeliest_slanted_ridge(const FlankGeometry& geometry,
                                                     const Observations& table,
                                                     const std::vector<float>& row_um,
-                                                    const std::vector<bool>& used) {
+                                                    const std::vector<std::uint32_t>& scanned) {
   constexpr double kLooks = 1e5, kMostOfIt = 0.5, kAslant = 1.3;
   // (errors that hang together over a few cells follow some line: in variances of single values)
   constexpr double kFarBeyond = 400.0, kMoreThanACorner = 1.15;
-  std::size_t rows = 0, taken = 0;
-  for (std::size_t i = 0; i < table.rows.size(); ++i)
-    rows += used[i] && table.rows[i].kind == ObservationKind::kScanFlank ? 1U : 0U;
+  const std::size_t rows = scanned.size();
+  std::size_t taken = 0;
   if (rows < kFewestRidgeRows) return {};
   const ThinnedRows some(rows, kRidgeRows), few(rows, kRidgeRowsMoved);
   RidgeValues values;
@@ -396,8 +395,8 @@ std::optional<SlantedRidge> likeliest_slanted_ridge(const FlankGeometry& geometr
     return static_cast<std::size_t>(std::clamp(std::floor(share * static_cast<double>(count)), 0.0,
                                                static_cast<double>(count - 1)));
   };
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    if (!some.has(i) || !used[i] || table.rows[i].kind != ObservationKind::kScanFlank) continue;
+  for (const std::uint32_t i : scanned) {
+    if (!some.has(i)) continue;
     const Place& place = table.place(table.rows[i]);
     RidgeCellsOfSide& side = sides[place.side > 0 ? 1 : 0];
     const std::size_t v = cell(place.z_mm / geometry.face_width_mm(), kRidgeHeights);

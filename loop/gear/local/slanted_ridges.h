@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -19,10 +20,9 @@ struct SlantedRidge {
 
 /// The likeliest one, of both flanks or one. None where a ridge that is not aslant says nearly as
 /// much, or most of what hangs together on the flanks is something else. `row_um`: residuals of the
-/// table's rows; `used`: which rows are looked at.
-[[nodiscard]] std::optional<SlantedRidge> likeliest_slanted_ridge(const FlankGeometry& geometry,
-                                                                  const Observations& table,
-                                                                  const std::vector<float>& row_um,
-                                                                  const std::vector<bool>& used);
+/// table's rows; `scanned`: which rows are looked at (scanned_flank_rows).
+[[nodiscard]] std::optional<SlantedRidge> likeliest_slanted_ridge(
+    const FlankGeometry& geometry, const Observations& table, const std::vector<float>& row_um,
+    const std::vector<std::uint32_t>& scanned);
 
 }  // namespace trueflank::loop

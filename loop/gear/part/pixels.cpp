@@ -9,6 +9,7 @@
 #include "trueflank/loop/gear/part/taken_up.h"
 #include "trueflank/loop/gear/plane/alike_over_height.h"
 #include "trueflank/loop/gear/plane/plane_waves.h"
+#include "trueflank/loop/gear/table/scanned_flank_rows.h"
 
 namespace trueflank::loop {
 namespace {
@@ -30,7 +31,8 @@ std::vector<RemainderFinding> pixels_of_plane(const PartModel& model) {
   const std::vector<bool> used = rows_in_patches(model);
   const auto alike = alike_over_height(model.geometry, model.table, *row_um, used);
   if (!alike || alike->p_value > kSure) return found;
-  for (const PlaneWave& saw : likeliest_pixels(model.geometry, model.table, *row_um, used)) {
+  for (const PlaneWave& saw : likeliest_pixels(model.geometry, model.table, *row_um,
+                                               scanned_flank_rows(model.table, used))) {
     found.emplace_back();
     found.back().p_value = saw.p_value;
     found.back().amount_um = saw.amplitude_um;

@@ -80,7 +80,7 @@ std::optional<AlikeOverHeight> alike_over_height(const FlankGeometry& geometry,
   std::map<int, PointsOfFlank> flanks;
   const ThinnedRows some(table.points_mm.size(), kMostRows);
   for (std::size_t i = 0; i < table.points_mm.size(); ++i) {
-    if (!used[i] || table.rows[i].kind != ObservationKind::kScanFlank || !some.has(i)) continue;
+    if (!some.has(i) || !used[i] || table.rows[i].kind != ObservationKind::kScanFlank) continue;
     const Place& place = table.place(table.rows[i]);
     flanks[2 * place.tooth + (place.side > 0 ? 1 : 0)].push_back(
         {place.radius_mm * place.polar_direction[0], place.radius_mm * place.polar_direction[1],

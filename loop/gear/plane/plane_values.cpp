@@ -7,15 +7,15 @@
 namespace trueflank::loop {
 
 PlaneValues values_in_plane(const FlankGeometry& geometry, const Observations& table,
-                            const std::vector<float>& row_um, const std::vector<bool>& used) {
+                            const std::vector<float>& row_um,
+                            const std::vector<std::uint32_t>& rows) {
   constexpr std::size_t kRowsAsked = 3000;
   PlaneValues values;
-  for (std::size_t i = 0; i < table.rows.size(); ++i)
-    values.rows += used[i] && table.rows[i].kind == ObservationKind::kScanFlank ? 1U : 0U;
+  values.rows = rows.size();
   const ThinnedRows some(values.rows, kRowsAsked);
   double sum = 0.0;
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    if (!some.has(i) || !used[i] || table.rows[i].kind != ObservationKind::kScanFlank) continue;
+  for (const std::uint32_t i : rows) {
+    if (!some.has(i)) continue;
     const Place& place = table.place(table.rows[i]);
     values.um.push_back(row_um[i]);
     sum += row_um[i];

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "trueflank/loop/gear/observations.h"
@@ -20,9 +21,9 @@ struct PlaneValues {
 };
 
 /// Of a scan's many values so many as tell what is asked. `row_um`: residuals of the table's rows;
-/// `used`: which rows are looked at.
+/// `rows`: which are looked at (scanned_flank_rows).
 [[nodiscard]] PlaneValues values_in_plane(const FlankGeometry& geometry, const Observations& table,
                                           const std::vector<float>& row_um,
-                                          const std::vector<bool>& used);
+                                          const std::vector<std::uint32_t>& rows);
 
 }  // namespace trueflank::loop

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -286,9 +287,9 @@ PlaneGain gain_of_stripes(const PlaneValues& values, double width_mm, const Wave
 std::optional<PlaneStripes> likeliest_plane_stripes(const FlankGeometry& geometry,
                                                     const Observations& table,
                                                     const std::vector<float>& row_um,
-                                                    const std::vector<bool>& used) {
+                                                    const std::vector<std::uint32_t>& rows) {
   constexpr double kClearly = 2.5, kBeside = 1.3;  // waves over the width
-  const PlaneValues values = values_in_plane(geometry, table, row_um, used);
+  const PlaneValues values = values_in_plane(geometry, table, row_um, rows);
   if (values.um.size() < kFewestRowsAsked) return {};
   const double width_mm = 2.0 * geometry.reference_radius_mm();
   const StripesOfGrid grid = stripes_of_grid(values, width_mm);
@@ -338,10 +339,10 @@ std::optional<PlaneStripes> likeliest_plane_stripes(const FlankGeometry& geometr
 
 std::vector<PlaneWave> likeliest_pixels(const FlankGeometry& geometry, const Observations& table,
                                         const std::vector<float>& row_um,
-                                        const std::vector<bool>& used) {
+                                        const std::vector<std::uint32_t>& rows) {
   // (the width of the gear over the smallest pixel; a wave that takes out as little is no pixel)
   constexpr double kFinest_mm = 0.012, kSure = 1e-6, kFewestOfAll = 0.05;
-  const PlaneValues values = values_in_plane(geometry, table, row_um, used);
+  const PlaneValues values = values_in_plane(geometry, table, row_um, rows);
   const double width_mm = 2.0 * geometry.reference_radius_mm();
   const double most = width_mm / kFinest_mm;
   if (values.um.size() < kFewestRowsAsked || most <= kMostPlaneWaves) return {};
@@ -390,10 +391,10 @@ std::vector<PlaneWave> likeliest_pixels(const FlankGeometry& geometry, const Obs
 std::optional<PlaneWave> likeliest_plane_wave(const FlankGeometry& geometry,
                                               const Observations& table,
                                               const std::vector<float>& row_um,
-                                              const std::vector<bool>& used) {
+                                              const std::vector<std::uint32_t>& rows) {
   constexpr double kClearly = 2.5;
   constexpr std::size_t kBeside = 4, kFiner = 9;
-  const PlaneValues values = values_in_plane(geometry, table, row_um, used);
+  const PlaneValues values = values_in_plane(geometry, table, row_um, rows);
   if (values.um.size() < kFewestRowsAsked) return {};
   const double width_mm = 2.0 * geometry.reference_radius_mm();
   const auto count =

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -32,18 +33,18 @@ struct PlaneWave {
 /// The likeliest wave in scanned flanks, from twice the gear to a sixtieth of its radius, judged
 /// against waves of other lengths of the same shift: what hangs together otherwise is none. None
 /// where another of another length is nearly as strong. A sawtooth, where that says clearly more.
-/// `row_um`: residuals of the table's rows; `used`: which rows are looked at.
+/// `row_um`: residuals of the table's rows; `rows`: which are looked at.
 [[nodiscard]] std::optional<PlaneWave> likeliest_plane_wave(const FlankGeometry& geometry,
                                                             const Observations& table,
                                                             const std::vector<float>& row_um,
-                                                            const std::vector<bool>& used);
+                                                            const std::vector<std::uint32_t>& rows);
 
 /// Sawteeth of scanned flanks along x over x and along y over y, far finer than those waves:
 /// pixels, steps of an axis. One, two, or none; a wave that is no sawtooth is none.
 [[nodiscard]] std::vector<PlaneWave> likeliest_pixels(const FlankGeometry& geometry,
                                                       const Observations& table,
                                                       const std::vector<float>& row_um,
-                                                      const std::vector<bool>& used);
+                                                      const std::vector<std::uint32_t>& rows);
 
 /// Stripes in any direction, along the normals, at all heights.
 struct PlaneStripes {
@@ -55,9 +56,8 @@ struct PlaneStripes {
 
 /// The likeliest stripes in scanned flanks, from one wave over the gear to twelve, judged against
 /// stripes of other lengths and directions. None where others are nearly as strong.
-[[nodiscard]] std::optional<PlaneStripes> likeliest_plane_stripes(const FlankGeometry& geometry,
-                                                                  const Observations& table,
-                                                                  const std::vector<float>& row_um,
-                                                                  const std::vector<bool>& used);
+[[nodiscard]] std::optional<PlaneStripes> likeliest_plane_stripes(
+    const FlankGeometry& geometry, const Observations& table, const std::vector<float>& row_um,
+    const std::vector<std::uint32_t>& rows);
 
 }  // namespace trueflank::loop
