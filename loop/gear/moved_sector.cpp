@@ -307,8 +307,9 @@ std::vector<Effect> likeliest_spirals(const RadiiAround& around) {
         best = from;
       }
     }
-    spirals.push_back(
-        {find_family("unnamed_spiral"), FlankChoice::kBoth, {best * kDegOfDirection, zero_at}});
+    spirals.push_back({find_family("unnamed_spiral"),
+                       FlankChoice::kBoth,
+                       {best * kDegOfDirection, zero_at, 0.0}});
   }
   return spirals;
 }

@@ -310,7 +310,7 @@ std::vector<FormInWords> forms_in_words(const loop::FlankGeometry& g) {
        0,
        0},
       {"unnamed_spiral",
-       {300, 1},
+       {300, 1, 0},
        "from 300 deg on, once around towards larger angles, the radius grows evenly by",
        "the radius shrinks evenly",
        15,

@@ -25,6 +25,7 @@
 #include "trueflank/loop/gear/part/names/names_beside_forms.h"
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/pixels.h"
+#include "trueflank/loop/gear/part/spirals.h"
 #include "trueflank/loop/gear/part/waves.h"
 #include "trueflank/loop/gear/possible_effects.h"
 #include "trueflank/loop/gear/remainder_around.h"
@@ -340,6 +341,7 @@ void nominate(PartModel& model) {
   for (const RemainderFinding& pixels : pixels_of_plane(model)) take_up(model, pixels);
   for (const RemainderFinding& march : marching_waves(model)) take_up(model, march);
   if (const auto bands = bands_of_flanks(model)) take_up(model, *bands);
+  if (const auto spiral = spiral_of_flanks(model)) take_up(model, *spiral);
   for (const RemainderFinding& wave : waves_of_odd_course(model)) take_up(model, wave);
   for (int round = 0; round < kMostWaves; ++round) {
     const auto& findings = remainder_of(model, model.options.given, RemainderOf::kTraining);

@@ -145,14 +145,18 @@ EffectFamily unnamed_views() {
 }
 
 /// A radius that drifts evenly once around, counter-clockwise from a direction on, and jumps back
-/// there: what warms up while it is scanned or made. `zero_at`: of no mean over the turn, nothing
-/// where it begins, or nothing where it ends. Told and found as views are.
+/// there: what warms up while it is scanned or made; or (`moved` 1) all walls along their normals:
+/// the offset of a wire. `zero_at`: of no mean over the turn, nothing where it begins, or nothing
+/// where it ends. Found before anything else (part/spirals.h), or told as views are.
 EffectFamily unnamed_spiral() {
-  EffectFamily f = described("unnamed_spiral", {"from_deg", "zero_at"});
+  EffectFamily f = described("unnamed_spiral", {"from_deg", "zero_at", "moved"});
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     const double nothing = shape[1] == kMeanOfDrift ? 0.5 : shape[1] == kFirstOfDrift ? 0.0 : 1.0;
-    c[0] = (share_of_turn(p, shape[0]) - nothing) *
-           normal_part(g, p, p.polar_direction[0], p.polar_direction[1]);
+    const double worth = shape[2] == 0.0
+                             ? normal_part(g, p, p.polar_direction[0], p.polar_direction[1])
+                         : p.surface == Surface::kFlank ? 1.0
+                                                        : 0.0;
+    c[0] = (share_of_turn(p, shape[0]) - nothing) * worth;
   };
   f.is_drift = true;
   f.faces_a_direction = true;
@@ -162,20 +166,28 @@ EffectFamily unnamed_spiral() {
   };
   f.values_sought = [](const EffectShape&) { return 1; };
   f.term_keys = {number("from_deg"),
-                 {"zero_at", TermKey::Kind::kWord, {"mean", "beginning", "end"}}};
+                 {"zero_at", TermKey::Kind::kWord, {"mean", "beginning", "end"}},
+                 {"moved", TermKey::Kind::kWord, {"outwards", "along_normal"}}};
   f.words = [](const ToldForm& told) {
     const int sign = told.sign();
+    const bool walls = told.shape[2] != 0.0;
+    const std::string by = sign == 0 ? "" : printed(" by %.3g um", std::abs(told.amounts[0]));
     return printed("from %.4g deg on, once around towards larger angles, ",
                    from_0_to_360(told.shape[0])) +
-           "the radius " +
-           (sign < 0   ? "shrinks"
-            : sign > 0 ? "grows"
-                       : "grows or shrinks") +
-           " evenly" + (sign == 0 ? "" : printed(" by %.3g um", std::abs(told.amounts[0]))) +
+           (walls ? "all walls drift evenly" + by +
+                        (sign < 0   ? ", towards less material"
+                         : sign > 0 ? ", towards more material"
+                                    : "")
+                  : std::string("the radius ") +
+                        (sign < 0   ? "shrinks"
+                         : sign > 0 ? "grows"
+                                    : "grows or shrinks") +
+                        " evenly" + by) +
            (told.shape[1] == kMeanOfDrift    ? ""
             : told.shape[1] == kFirstOfDrift ? ", from nothing at its beginning"
                                              : ", to nothing at its end") +
-           ", and jumps back, as where table or part warm up while it is scanned or made";
+           (walls ? ", and jump back, as where the offset of a wire or tool drifts along its way"
+                  : ", and jumps back, as where table or part warm up while it is scanned or made");
   };
   return f;
 }
