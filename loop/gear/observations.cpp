@@ -70,20 +70,27 @@ class TableBuilder {
     }
     const PoseQuality quality = pose_quality(geometry_, scan, pose);
     if (!fits(quality)) {
-      errors.push_back({.code = ErrorCode::kInconsistent,
-                        .message = "the scan does not fit the gear as designed: " +
-                                   trimmed_number(std::round(1000.0 * quality.share) / 10.0) +
-                                   " % of its points in the ring of the teeth lie near a flank" +
-                                   (options_.aligned ? ", taken as aligned" : ""),
-                        .remedy = options_.aligned ? remedy_of_aligned(scan)
-                                                   : "check --gear, the design and the unit (mm)",
-                        .file = scan.file});
+      errors.push_back(
+          {.code = ErrorCode::kInconsistent,
+           .message = (options_.aligned ? "the scan does not fit the gear as designed: "
+                                        : "no pose was found in which the scan fits the gear as "
+                                          "designed: in the best one tried ") +
+                      trimmed_number(std::round(1000.0 * quality.share) / 10.0) +
+                      " % of its points in the ring of the teeth lie near a flank" +
+                      (options_.aligned ? ", taken as aligned" : ""),
+           .remedy = options_.aligned ? remedy_of_aligned(scan) : kRemedyOfPose,
+           .file = scan.file});
       return;
     }
     table.poses.push_back(pose);
     table.pose_is_free.push_back(!options_.aligned);
     add_points(scan, pose, source);
   }
+
+  static constexpr const char* kRemedyOfPose =
+      "check --gear, the design and the unit (mm); a scan of a few teeth may not show its pose: "
+      "scan "
+      "more teeth, best all around, or give it in the gear's frame with --aligned";
 
   [[nodiscard]] bool fits(const PoseQuality& quality) const {
     return quality.share > 0.2 && quality.median_mm < 0.15 * geometry_.gear().normal_module_mm;

@@ -113,6 +113,15 @@ class PoseSearch {
     return refined(poses[static_cast<std::size_t>(least)], fine_, {.rounds = 12, .still = 1e-5});
   }
 
+  /// The same from where the scan stands, as of one that was aligned roughly: a few teeth show
+  /// neither the axis nor its place.
+  Pose best_as_it_stands() {
+    Pose pose;
+    place_height(pose, coarse_);
+    (void)search_phase(pose);
+    return refined(pose, fine_, {.rounds = 12, .still = 1e-5});
+  }
+
   /// When a refinement ends: after so many rounds, or where the step is smaller than `still` [mm and
   /// rad] and the weights hardly change any more.
   struct Rounds {
@@ -486,14 +495,24 @@ Result<Pose> fit_pose(const FlankGeometry& geometry, const ScanData& scan) {
   const Points points = thinned(scan.points_mm, 40000);
   Pose pose = search.refined(search.best(), points, {});
   constexpr double kGood = 0.8;  // nearly 1 where all points are on flanks as designed
-  const double share = pose_quality(geometry, scan, pose).share;
-  if (share < kGood) {
-    const Pose other = search.refined(search.best_of_all_axes(), points, {});
+  constexpr double kClose = 0.03;  // modules: what made gears lie off, and not by their pose
+  const double module = geometry.gear().normal_module_mm;
+  PoseQuality of_pose = pose_quality(geometry, scan, pose);
+  const auto take_if_better = [&](const Pose& other) {
     const PoseQuality quality = pose_quality(geometry, scan, other);
     // Of points at random some few lie near flanks in some pose.
-    constexpr double kFits = 0.5, kInRing = 0.2;
-    if (quality.share > std::max(share, kFits) && quality.in_ring > kInRing) pose = other;
-  }
+    constexpr double kFits = 0.5, kInRing = 0.2, kMuchCloser = 0.5;
+    if (quality.share < kFits || quality.in_ring < kInRing) return;
+    if (!(of_pose.share < kGood
+              ? quality.share > of_pose.share
+              : quality.share >= kGood && quality.median_mm < kMuchCloser * of_pose.median_mm))
+      return;
+    pose = other;
+    of_pose = quality;
+  };
+  if (of_pose.share < kGood || of_pose.median_mm > kClose * module)
+    take_if_better(search.refined(search.best_as_it_stands(), points, {}));
+  if (of_pose.share < kGood) take_if_better(search.refined(search.best_of_all_axes(), points, {}));
   return least_turned(geometry, pose);
 }
 

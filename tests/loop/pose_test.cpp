@@ -55,6 +55,28 @@ TEST(Pose, IsFoundWithHalfTheTeethMissing) {
   EXPECT_LT(worst_distance(spur(24), options), 1e-6);
 }
 
+// Strips of one side show no circle.
+TEST(Pose, OfAFewFlanksIsFoundFromWhereTheScanStands) {
+  for (const int teeth : {24, 39}) {
+    const MadeGear made = spur(teeth);
+    ScanOptions options = scanned(8000, 3.0, 4);
+    for (int k = 5; k <= teeth; ++k) options.missing_teeth.push_back(k);
+    auto scan = scan_of(made, {}, options);
+    const loop::FlankGeometry geometry = geometry_of(made);
+    std::erase_if(scan.points_mm, [&](const Vec3& p) {
+      const auto placed = geometry.nearest_flank(p);
+      return placed.place.surface != loop::Surface::kFlank || placed.place.side < 0;
+    });
+    for (Vec3& p : scan.points_mm)
+      p = {p[0] + 0.2, p[1] - 0.15 + 0.003 * p[2], p[2] - 0.003 * p[1]};
+    const auto pose = loop::fit_pose(geometry, scan);
+    ASSERT_TRUE(pose.has_value());
+    const loop::PoseQuality quality = loop::pose_quality(geometry, scan, *pose);
+    EXPECT_GT(quality.share, 0.95) << teeth;
+    EXPECT_LT(quality.median_mm, 0.004) << teeth;
+  }
+}
+
 TEST(Pose, IsNotPulledByOutliers) {
   const MadeGear made = spur(24);
   ScanOptions options;
