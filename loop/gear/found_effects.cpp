@@ -17,6 +17,7 @@
 #include "trueflank/loop/gear/arbitrary_pose.h"
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/orders_alike.h"
+#include "trueflank/loop/gear/part/ends.h"
 #include "trueflank/loop/result/describe.h"
 
 namespace trueflank::loop {
@@ -191,6 +192,36 @@ class Describer {
     return text + " were traced";
   }
 
+  /// Of what stands out towards an end, and most at it: how far it does where the last value was
+  /// measured. Empty where that is hardly less.
+  std::string at_last_place(const Effect& effect, double amount_um) const {
+    constexpr double kHardlyLess = 0.97;
+    const std::optional<FormAtAnEnd> form = form_at_an_end(sources_.geometry, effect);
+    if (sources_.table == nullptr || !form) return "";
+    const bool over_face = form->face != 0.0;
+    const auto along = [&](const Place& place) {
+      return over_face ? place.z_mm : sources_.geometry.profile_coordinate(place.roll_mm);
+    };
+    const Place* last = nullptr;
+    for (const Observation& row : sources_.table->rows) {
+      if (row.kind != ObservationKind::kScanFlank &&
+          row.kind != (over_face ? ObservationKind::kHelix : ObservationKind::kProfile))
+        continue;
+      const Place& place = sources_.table->place(row);
+      double column = 0.0;
+      if (last != nullptr && !(form->end * (along(place) - along(*last)) > 0.0)) continue;
+      effect.evaluate(sources_.geometry, place, &column);
+      if (column != 0.0) last = &place;
+    }
+    if (last == nullptr) return "";
+    double share = 0.0;
+    effect.evaluate(sources_.geometry, *last, &share);
+    if (!(std::abs(share) < kHardlyLess)) return "";
+    return printed(", %.3g um", std::abs(amount_um * share)) +
+           (over_face ? printed(" at the last height measured, %.4g mm", last->z_mm)
+                      : printed(" at the last diameter measured, %.5g mm", 2.0 * last->radius_mm));
+  }
+
   Term term(int e) const {
     const Effect& effect = sources_.fit.effects()[e];
     const int column = sources_.fit.first_column(e);
@@ -200,7 +231,8 @@ class Describer {
     const std::span<const double> own(b.data() + column,
                                       static_cast<std::size_t>(effect.columns()));
     const std::string words = in_which_file(effect) + words_for(sources_.geometry, effect, own);
-    result.text = with_remark(words + traced_of_them(effect, words), *effect.family);
+    result.text = with_remark(
+        words + traced_of_them(effect, words) + at_last_place(effect, b[column]), *effect.family);
     result.cos = b[column];
     double variance = covariance(column, column);
     if (effect.columns() == 2) {

@@ -8,6 +8,7 @@
 #include "trueflank/loop/gear/part/bans.h"
 #include "trueflank/loop/gear/part/choice.h"
 #include "trueflank/loop/gear/part/clampings/clampings.h"
+#include "trueflank/loop/gear/part/ends.h"
 #include "trueflank/loop/gear/part/forms_around.h"
 #include "trueflank/loop/gear/part/names/names.h"
 #include "trueflank/loop/gear/part/names/settled_names.h"
@@ -139,6 +140,8 @@ void explain_part(PartModel& model) {
   tell_likeliest_names(model);
   tell_the_usual_of_equals(model);
   drop_names_that_may_be_nothing(model);
+  tell_both_ends_as_one(model);
+  tell_ends_as_they_fit(model);
   tell_what_is_left(model);
 }
 
