@@ -283,6 +283,10 @@ class Describer {
         !found.terms.empty() &&
         std::all_of(found.terms.begin(), found.terms.end(),
                     [](const Term& t) { return t.half_width >= t.amplitude(); });
+    // (a small gain of many values: chance does not do it, but what stands beside it may)
+    if (found.named && found.bic_gain < 0.0)
+      found.sure =
+          "likely: it explains no more than its values cost" + open_names(found.confounded_with);
     if (may_be_nothing) found.sure = "a guess: its size may as well be nothing";
     if (is_of_one_value(members.front())) {
       found.sure =

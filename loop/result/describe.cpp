@@ -116,8 +116,12 @@ std::string sure_words(double p_value, const std::vector<std::string>& confounde
            " data sets";
     if (sets < 5.0) text = "a guess: chance alone does this as easily";
   }
-  if (confounded_with.empty()) return text;
-  return text + "; the name is open: " + any_of_ids(confounded_with) + " would look the same here";
+  return text + open_names(confounded_with);
+}
+
+std::string open_names(const std::vector<std::string>& confounded_with) {
+  if (confounded_with.empty()) return "";
+  return "; the name is open: " + any_of_ids(confounded_with) + " would look the same here";
 }
 
 std::string once_ruled_out(const std::vector<std::string>& confounded_with) {

@@ -35,6 +35,8 @@ void sort_by_size(std::vector<Term>& terms);
 /// How sure a finding is, in words that hold a bound of its probability: "sure: chance alone does this less
 /// than once in 100 data sets". `confounded_with`: what the name may be instead.
 [[nodiscard]] std::string sure_words(double p_value, const std::vector<std::string>& confounded_with);
+/// "; the name is open: taper would look the same here"; empty where none would.
+[[nodiscard]] std::string open_names(const std::vector<std::string>& confounded_with);
 /// Gives effects their shares of `whole`, what all explain of the variance: in proportion to the
 /// mean squares of what each, as large as it is told, adds to the values. Where effects neither
 /// help nor undo each other these are what each explains; else no other division that adds up

@@ -6,10 +6,14 @@
 #include <vector>
 
 #include "trueflank/loop/gear/part/bans.h"
+#include "trueflank/loop/gear/part/body/lone_place.h"
+#include "trueflank/loop/gear/part/body/walls_by_direction.h"
 #include "trueflank/loop/gear/part/choice.h"
 #include "trueflank/loop/gear/part/clampings/clampings.h"
 #include "trueflank/loop/gear/part/ends.h"
+#include "trueflank/loop/gear/part/few_index_values.h"
 #include "trueflank/loop/gear/part/forms_around.h"
+#include "trueflank/loop/gear/part/names/equal_names.h"
 #include "trueflank/loop/gear/part/names/names.h"
 #include "trueflank/loop/gear/part/names/settled_names.h"
 #include "trueflank/loop/gear/part/names/slopes_beside_waves.h"
@@ -96,8 +100,12 @@ void explain_part(PartModel& model) {
   model.unseen = model.banned;
   ban_pitch_in_runouts(model);
   ban_given(model);
+  // (what so few values leave says nothing more)
+  const std::optional<RemainderFinding> of_few =
+      model.options.names_only ? std::nullopt : eccentricity_of_few_values(model);
+  if (of_few) take_up(model, *of_few);
   const bool scan_for_more =
-      !model.options.joined && !model.options.names_only && !is_rounding(model);
+      !of_few && !model.options.joined && !model.options.names_only && !is_rounding(model);
   if (scan_for_more) nominate(model);
   move_back_what_is_off_centre(model);
   explain(model);
@@ -123,6 +131,7 @@ void explain_part(PartModel& model) {
   if (!is_rounding(model) && !model.options.joined) look_at_neighbours(model);
   model.problem = {};  // all is chosen: its columns take a fifth of the memory of a large scan
   veto(model);
+  if (of_few) tell_names_that_one_side_leaves_open(model);
   if (!scan_for_more) return;
   prefer_names(model);
   prefer_one_name_to_two(model);
@@ -142,7 +151,10 @@ void explain_part(PartModel& model) {
   drop_names_that_may_be_nothing(model);
   tell_both_ends_as_one(model);
   tell_ends_as_they_fit(model);
+  tell_walls_by_direction(model);
+  tell_names_that_one_side_leaves_open(model);
   tell_what_is_left(model);
+  if (tell_lone_places(model)) tell_what_is_left(model);
 }
 
 void explain_measured_part(PartModel& model) {
