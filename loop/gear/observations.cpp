@@ -72,9 +72,8 @@ class TableBuilder {
     if (!fits(quality)) {
       errors.push_back(
           {.code = ErrorCode::kInconsistent,
-           .message = (options_.aligned ? "the scan does not fit the gear as designed: "
-                                        : "no pose was found in which the scan fits the gear as "
-                                          "designed: in the best one tried ") +
+           .message = std::string("the scan does not fit the gear as designed") +
+                      (options_.aligned ? ": " : " in any pose that was tried: in the best one ") +
                       trimmed_number(std::round(1000.0 * quality.share) / 10.0) +
                       " % of its points in the ring of the teeth lie near a flank" +
                       (options_.aligned ? ", taken as aligned" : ""),

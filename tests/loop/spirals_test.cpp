@@ -30,7 +30,7 @@ const loop::Term* spiral_of(const loop::LoopResult& result) {
   return nullptr;
 }
 
-double number_of(const loop::Term& term, const std::string& name) {
+double degrees_of(const loop::Term& term, const std::string& name) {
   for (const auto& [key, value] : term.keys)
     if (key == name) return std::get<double>(value);
   return NAN;
@@ -52,7 +52,7 @@ TEST(DriftOfAllWalls, IsOneFormBesideANameToo) {
       const loop::Term* told = spiral_of(result);
       ASSERT_NE(told, nullptr) << list(result);
       EXPECT_NEAR(told->cos, um, 0.5) << list(result);
-      EXPECT_NEAR(std::remainder(number_of(*told, "from_deg") - from, 360.0), 0.0, 1.0)
+      EXPECT_NEAR(std::remainder(degrees_of(*told, "from_deg") - from, 360.0), 0.0, 1.0)
           << list(result);
     }
   }
