@@ -47,6 +47,30 @@ void note_ways(std::vector<BenchPoint>& points, std::size_t begin, std::size_t e
   }
 }
 
+/// How far a load or a speed steps by its sensor's scatter alone, where it is held over several
+/// rows: small steps that go to and fro. The same scatter is in what the drive seems to lose, so
+/// that such a step would tell of it. 0: small steps follow each other, as in a slow ramp, or there
+/// are few.
+double steps_of_scatter(const std::vector<BenchPoint>& points, double BenchPoint::*value,
+                        double small) {
+  constexpr int kFewest = 20;
+  constexpr double kErrors = 4.0;
+  double product = 0.0, before = 2.0 * small;
+  int pairs = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const double step = points[i].file == points[i - 1].file
+                            ? points[i].*value - points[i - 1].*value
+                            : 2.0 * small;
+    if (std::abs(step) < small && std::abs(before) < small) {
+      product += step * before;
+      ++pairs;
+    }
+    before = step;
+  }
+  // (of independent errors the product of two steps is on average minus their square)
+  return pairs < kFewest || product >= 0.0 ? 0.0 : kErrors * std::sqrt(-2.0 * product / pairs);
+}
+
 }  // namespace
 
 void note_history(std::vector<BenchPoint>& points) {
@@ -56,6 +80,13 @@ void note_history(std::vector<BenchPoint>& points) {
     most_load = std::max(most_load, p.load_nm);
     most_speed = std::max(most_speed, p.speed_rpm);
   }
+  constexpr double kStands = 0.002;  // of the largest
+  const double load_stands = std::max(kStands * most_load,
+                                      steps_of_scatter(points, &BenchPoint::load_nm,
+                                                       kApart * most_load)),
+               speed_stands = std::max(kStands * most_speed,
+                                       steps_of_scatter(points, &BenchPoint::speed_rpm,
+                                                        kApart * most_speed));
   std::size_t begin = 0;
   for (std::size_t i = 0; i <= points.size(); ++i) {
     const bool ends = i == points.size() || points[i].file != points[begin].file;
@@ -72,13 +103,12 @@ void note_history(std::vector<BenchPoint>& points) {
     if (i == points.size()) break;
     const bool starts = i == begin;
     if (!starts) {
-      const auto stepped = [&](double BenchPoint::*value, double most) {
-        constexpr double kStands = 0.002;  // of the largest
+      const auto stepped = [&](double BenchPoint::*value, double stands) {
         const double by = points[i].*value - points[i - 1].*value;
-        return by > kStands * most ? 1 : by < -kStands * most ? -1 : 0;
+        return by > stands ? 1 : by < -stands ? -1 : 0;
       };
-      points[i].way_stepped = stepped(&BenchPoint::load_nm, most_load);
-      points[i].speed_way_stepped = stepped(&BenchPoint::speed_rpm, most_speed);
+      points[i].way_stepped = stepped(&BenchPoint::load_nm, load_stands);
+      points[i].speed_way_stepped = stepped(&BenchPoint::speed_rpm, speed_stands);
       constexpr double kSame = 1e-6;  // degrees
       const double warmer = points[i].temperature_c - points[i - 1].temperature_c;
       points[i].warmth_stepped = warmer > kSame ? 1 : warmer < -kSame ? -1 : 0;

@@ -18,7 +18,17 @@ double DriveContext::friction(const BenchPoint& p) const {
           std::pow(std::max(load_nm(p), 0.0) / table.most_load_nm, state.load_exponent);
   if (state.mixed_value != 0.0)
     mu += state.mixed_value * faded(p.speed_rpm, state.mixed_speed_rpm, state.mixed_exponent);
+  if (state.speed_share != 0.0)
+    mu += (designed_friction(p) + state.shift) * state.speed_share *
+          course_of_speed(p.speed_rpm, state.speed_bend);
   return mu;
+}
+
+double DriveContext::course_of_speed(double speed_rpm, double bend) const {
+  constexpr double kLeast = 0.005;  // of the largest: no power of a standing drive
+  const double least = kLeast * table.most_speed_rpm,
+               middle = std::sqrt(std::max(table.least_speed_rpm, least) * table.most_speed_rpm);
+  return std::expm1(-bend * std::log(std::max(speed_rpm, least) / middle)) / bend;
 }
 
 double DriveContext::friction_slope(const BenchPoint& p) const {

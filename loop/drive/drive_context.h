@@ -23,6 +23,7 @@ struct DriveState {
   double difference = 0.0;                       ///< direction_dependent_friction
   double load_value = 0.0, load_exponent = 1.0;  ///< load_dependent_friction
   double mixed_value = 0.0, mixed_speed_rpm = 1.0, mixed_exponent = 2.0;  ///< mixed_friction
+  double speed_share = 0.0, speed_bend = 1.0;  ///< unnamed_friction_by_speed
   double scale = 1.0;
   double input_zero_nm = 0.0, output_zero_nm = 0.0;    ///< torque_offset
   double input_drift_nm = 0.0, output_drift_nm = 0.0;  ///< torque_drift
@@ -80,6 +81,8 @@ struct DriveContext {
     const double misread_nm = state.output_zero_nm + p.taken * state.output_drift_nm;
     return (p.load_nm - misread_nm / model.ratio) / state.scale;
   }
+  /// (n / n_middle)^-bend - 1 over the bend: 0 in the geometric middle of the bench's speeds.
+  [[nodiscard]] double course_of_speed(double speed_rpm, double bend) const;
   /// Change of the driven torque for a unit of mesh friction: the secant from the design to the
   /// state, so that effects whose sum is the state's are exact.
   [[nodiscard]] double friction_slope(const BenchPoint& p) const;

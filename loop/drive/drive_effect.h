@@ -159,6 +159,8 @@ struct DriveFamily : EffectFacts {
   std::function<std::vector<DriveShape>(const DriveContext&)> whole_shapes = {};
   /// What it must take off more than others to be told as a whole form (chi-square).
   double dearer = 0.0;
+  /// A reading that where power is gained is asked in place of losses, not beside them.
+  bool in_place_of_losses = false;
   /// A reading that no loss of the library does in one direction alone.
   bool asked_of_one_direction = false;
   /// False of a shape of which the most stands where nothing was run; empty: none is so.

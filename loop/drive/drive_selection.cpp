@@ -161,7 +161,8 @@ void DriveSelection::ask_what_is_left_again(DriveOutcome& outcome) {
 }
 
 bool DriveSelection::may_be_there(const DriveFamily& family) const {
-  if (!gains_power() || !family.is_loss) return true;
+  if (!gains_power()) return true;
+  if (!family.is_loss) return !(losses_beside_gains_ && family.in_place_of_losses);
   return losses_beside_gains_ && !family.differs_by_direction;
 }
 
@@ -343,6 +344,7 @@ bool DriveSelection::move_state(const DriveOutcome& outcome) {
   const bool moved =
       far(&DriveState::shift) || far(&DriveState::difference) || far(&DriveState::load_value) ||
       far(&DriveState::mixed_value) || far(&DriveState::mixed_exponent) ||
+      far(&DriveState::speed_share) || far(&DriveState::speed_bend) ||
       far(&DriveState::scale) || far(&DriveState::input_zero_nm, table_.most_load_nm) ||
       far(&DriveState::input_drift_nm, table_.most_load_nm) ||
       far(&DriveState::output_zero_nm, output_nm) || far(&DriveState::output_drift_nm, output_nm) ||

@@ -275,7 +275,18 @@ class Describer {
     found.parameters = parameters_of_terms(found.terms, order, "amplitude_nm", order != 0.0);
     found.description += order != 0.0 ? where_a_wave_is_most(found.terms.front(), order, reads)
                                       : where_it_is_most(members);
-    if (reads) found.description += " (the same sign in both directions: a reading, no loss)";
+    if (!reads) return;
+    if (order != 0.0) {
+      constexpr std::size_t kAmplitude = 1;  // after the order
+      Parameter at_output = found.parameters[kAmplitude];
+      at_output.name = "reads_more_nm";
+      for (double* value : {&at_output.value, &at_output.low, &at_output.high})
+        *value *= s_.context.model.ratio;
+      found.description +=
+          ": " + drive_effects::with_interval(at_output, " N m more and less of it");
+      found.parameters.push_back(at_output);
+    }
+    found.description += drive_effects::kNoLoss;
   }
 
   /// True of courses and waves that are opposite in the two directions, as a sensor's are.

@@ -42,5 +42,30 @@ TEST(ExchangedEffects, IntervalsOfAFrictionThatFadesHoldTheExponentThatItHas) {
   EXPECT_GE(named, draws - draws / 6);
 }
 
+// A share of the driving torque is no friction of one mesh, and not told as surely as that of what
+// the output carries.
+TEST(ExchangedEffects, AShareOfTheDrivingTorqueIsOfBearings) {
+  for (const std::uint64_t seed : {71U, 72U, 73U}) {
+    BenchPlan plan;
+    plan.seed = seed;
+    plan.repeats = 4;
+    plan.noise_forward_nm = 0.015;
+    plan.noise_backward_nm = 0.00015;
+    plan.noise_driving = 0.0001;
+    const double share = 0.012 + 0.003 * static_cast<double>(seed % 3);
+    HiddenDrive drive;
+    drive.loss_nm = [&](const BenchMoment& m) {
+      return share * m.driving_nm / (m.forward ? 1.0 : paper_train().ratio());
+    };
+    const auto closed = close_hidden(drive, plan);
+    ASSERT_TRUE(closed);
+    EXPECT_EQ(found(closed->result, "mesh_friction"), nullptr) << told(closed->result);
+    const loop::FoundEffect* bearings = found(closed->result, "bearing_load_friction");
+    ASSERT_NE(bearings, nullptr) << told(closed->result);
+    EXPECT_NEAR(parameter(*bearings, "share")->value, share, 0.1 * share) << told(closed->result);
+    EXPECT_EQ(parameter(*bearings, "carried")->value, 2.0) << told(closed->result);
+  }
+}
+
 }  // namespace
 }  // namespace trueflank::test

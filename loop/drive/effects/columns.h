@@ -156,8 +156,10 @@ inline constexpr double kAsItsGainReads = 4.0;
 [[nodiscard]] std::string unit_of_quantity(double over);
 /// " rpm" as it follows "per".
 [[nodiscard]] std::string unit_alone(double over);
-/// " (the same sign in both directions: a reading, no loss)".
-inline constexpr const char* kNoLoss = " (the same sign in both directions: a reading, no loss)";
+/// Of a reading: two sensors show only their ratio.
+inline constexpr const char* kNoLoss =
+    " (the same sign in both directions: a reading, no loss; the input's torque read wrong the "
+    "other way looks alike)";
 /// "reads 0.52 (0.5 to 0.54) N m more"; the sign of the figure is in the words.
 [[nodiscard]] std::string reads_in_words(const Parameter& figure);
 /// A family of what a sensor of the output reads wrong, with one amount.

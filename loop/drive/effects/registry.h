@@ -70,6 +70,10 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_viscous_slope();
 [[nodiscard]] DriveFamily unnamed_growth();
 [[nodiscard]] DriveFamily unnamed_cap();
+[[nodiscard]] DriveFamily unnamed_floor();
+[[nodiscard]] DriveFamily unnamed_friction_by_speed();
+[[nodiscard]] DriveFamily unnamed_warm_growth();
+[[nodiscard]] DriveFamily unnamed_backlash();
 [[nodiscard]] DriveFamily unnamed_one_direction();
 [[nodiscard]] DriveFamily unnamed_fading_one_direction();
 [[nodiscard]] DriveFamily unnamed_reading_power();

@@ -309,8 +309,11 @@ DriveFamily unnamed_drift() {
   f.parameters = {"degree_0", "degree_1", "degree_2"};
   f.preference = 8;
   f.differs_by_direction = true;
+  // (of both directions the zero's drift and the gain's are asked one by one: together with these it
+  // would be the same twice)
   f.shapes = [](const DriveContext& context) {
-    return has_one_course(context) && context.table.levels[0] >= kDriftDegrees
+    const bool both = context.table.has(true) && context.table.has(false);
+    return has_one_course(context) && context.table.levels[0] >= kDriftDegrees && !both
                ? std::vector<DriveShape>{{}}
                : std::vector<DriveShape>{};
   };

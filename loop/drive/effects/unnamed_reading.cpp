@@ -81,7 +81,7 @@ DriveFamily unnamed_reading_power() {
               const std::vector<Parameter>& figures) {
     return "the output's torque " + reads_in_words(figures[0]) + " at " + speed_text(context) +
            ", by the power " + with_interval(figures[1], " of the speed") +
-           ", or the input's torque as much the other way, divided by the ratio" + kNoLoss;
+           kNoLoss;
   };
   f.words = [](const DriveModel&, const DriveShape&, const DriveContext*) {
     return std::string("as a reading of the output's torque that follows the speed");
@@ -196,8 +196,7 @@ DriveFamily unnamed_gain_slope() {
            with_interval(figures[0], " % per C") + ", " + with_interval(figures[1], " %") +
            printed(" from %.3g", context.quantity_at_share(2.0, 0.0)) +
            printed(" to %.3g C", context.quantity_at_share(2.0, 1.0)) + ", right at " +
-           with_interval(figures[2], " C") + ", or the input's torque as much the other way" +
-           kNoLoss;
+           with_interval(figures[2], " C") + kNoLoss;
   };
   f.words = [](const DriveModel&, const DriveShape&, const DriveContext*) {
     return std::string("as a gain of the output's torque that follows the temperature");

@@ -112,13 +112,11 @@ DriveFamily unnamed_reading_bow_of_load() {
                                   figure_of("most_at_output_nm", 0.5 * right_nm),
                                   figure_of("right_again_at_output_nm", right_nm)};
   };
-  f.told = [](const DriveContext& context, const DriveShape&, double,
+  f.told = [](const DriveContext&, const DriveShape&, double,
               const std::vector<Parameter>& figures) {
     return "the output's torque is read in a bow over its load: right at none, it " +
            reads_in_words(figures[1]) + " at " + with_interval(figures[2], " N m") +
-           " and is right again at " + with_interval(figures[3], " N m") +
-           ", or the input's torque as much the other way, divided by the ratio of " +
-           short_text(context.model.ratio) + kNoLoss + ": a sensor that is not straight?";
+           " and is right again at " + with_interval(figures[3], " N m") + kNoLoss + ": a sensor that is not straight?";
   };
   f.words = [](const DriveModel&, const DriveShape&, const DriveContext*) {
     return std::string("as a reading of the output's torque in a bow over its load");

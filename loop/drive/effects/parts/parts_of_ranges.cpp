@@ -125,7 +125,9 @@ std::string more_of(const std::vector<Parameter>& figures, double what, double a
   const bool reads = what == double(kOutputReads) || what == double(kOutputGain);
   return with_interval(reads ? figures.back() : figures.front(), " N m") +
          (amount > 0.0 ? " more" : " less") + than +
-         (is_beside_the_load(what) ? " at the largest load, in proportion to it" : "");
+         (what == kBySpeed            ? " at the largest speed, in proportion to it"
+          : is_beside_the_load(what) ? " at the largest load, in proportion to it"
+                                     : "");
 }
 
 void add_reading(const DriveContext& context, double what, double amount,

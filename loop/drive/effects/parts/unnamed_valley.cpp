@@ -19,8 +19,10 @@ namespace {
 enum ValleyValue : std::size_t { kValleyOver, kValleyPlace, kValleyPower };
 /// What a loss that saturates grows with: the driving torque, the speed, what the output carries.
 enum SaturatesOver { kOverDriving, kOverSpeed, kOverCarried };
-/// Of one that saturates; `kSaturatesGone`: it is there at no load and dies away as the load grows.
-enum SaturatesValue : std::size_t { kSaturatesScale, kSaturatesOver, kSaturatesGone };
+/// Of one that saturates, x its load over the scale: 1 - exp(-x); exp(-x), there at no load;
+/// x / (1 + x).
+enum SaturatesValue : std::size_t { kSaturatesScale, kSaturatesOver, kSaturatesHow };
+enum SaturatesHow { kSoonFull, kDiesAway, kSlowlyFull };
 constexpr double kLeastScale = 0.03, kMostScale = 0.6;           // of the largest load or speed
 constexpr double kFirstOfRanges = 0.08, kLastOfRanges = 0.95;    // of the largest load
 constexpr double kValleyNearest = 0.12, kValleyFarthest = 0.88;  // of the range
@@ -126,7 +128,7 @@ DriveFamily unnamed_valley() {
 DriveFamily unnamed_saturating() {
   DriveFamily f = without_a_name();
   f.parameters = {"amount_nm"};
-  f.shape_names = {"scale", "over", "gone"};
+  f.shape_names = {"scale", "over", "how"};
   f.preference = 7;
   f.stands_alone = true;
   f.shape_values = {
@@ -135,6 +137,11 @@ DriveFamily unnamed_saturating() {
       {},
       {}};
   f.shapes = no_shapes;
+  // (what fills up more slowly is nearly in proportion)
+  f.shows = [](const DriveContext&, const DriveShape& s) {
+    constexpr double kSlowest = 0.35;
+    return s[kSaturatesHow] != double(kSlowlyFull) || s[kSaturatesScale] < kSlowest;
+  };
   f.whole_shapes = [](const DriveContext& context) {
     constexpr double kOfLeast = 0.7;  // at the least load a quarter of what dies away is left
     const double least = kOfLeast * context.table.least_load_nm / context.table.most_load_nm;
@@ -143,15 +150,16 @@ DriveFamily unnamed_saturating() {
       const bool speed = over == double(kOverSpeed);
       if (!can_have_a_valley(context, speed ? 1.0 : 0.0)) continue;
       for (double scale = kLeastScale; scale < kMostScale; scale *= 1.15) {
-        shapes.push_back({scale, over, 0.0});
+        shapes.push_back({scale, over, double(kSoonFull)});
+        shapes.push_back({scale, over, double(kSlowlyFull)});
         // (what dies away over the speed has a name)
-        if (!speed && scale >= least) shapes.push_back({scale, over, 1.0});
+        if (!speed && scale >= least) shapes.push_back({scale, over, double(kDiesAway)});
       }
     }
     return shapes;
   };
   f.kind = [](const DriveShape& s) {
-    return static_cast<int>(3.0 * s[kSaturatesGone] + s[kSaturatesOver]);
+    return static_cast<int>(3.0 * s[kSaturatesHow] + s[kSaturatesOver]);
   };
   f.all_shapes = [](const DriveContext& context, const DriveShape* about) {
     return about == nullptr
@@ -164,8 +172,10 @@ DriveFamily unnamed_saturating() {
                  share = over == double(kOverDriving) ? p.load_nm / context.table.most_load_nm
                          : over == double(kOverSpeed) ? p.speed_rpm / context.table.most_speed_rpm
                                                       : context.share_of_range(p, 0.0),
-                 gone = std::exp(-share / s[kSaturatesScale]);
-    c[0] = -context.lever(p) * (s[kSaturatesGone] != 0.0 ? gone : 1.0 - gone);
+                 x = share / s[kSaturatesScale], gone = std::exp(-x);
+    c[0] = -context.lever(p) * (s[kSaturatesHow] == double(kDiesAway)     ? gone
+                                : s[kSaturatesHow] == double(kSlowlyFull) ? x / (1.0 + x)
+                                                                          : 1.0 - gone);
   };
   f.figures = [](const DriveContext& context, const DriveShape& s, double amount) {
     const BenchTable& t = context.table;
@@ -180,7 +190,7 @@ DriveFamily unnamed_saturating() {
   };
   f.told = [](const DriveContext&, const DriveShape& s, double amount,
               const std::vector<Parameter>& figures) {
-    const bool speed = s[kSaturatesOver] == double(kOverSpeed), gone = s[kSaturatesGone] != 0.0;
+    const bool speed = s[kSaturatesOver] == double(kOverSpeed), gone = s[kSaturatesHow] == double(kDiesAway);
     const std::string size = with_interval(figures[0], amount > 0.0 ? " N m" : " N m less"),
                       within = with_interval(figures[1], speed ? " rpm"
                                                          : s[kSaturatesOver] == double(kOverDriving)
@@ -191,11 +201,13 @@ DriveFamily unnamed_saturating() {
              " at no load, all but a third of that gone within " + within +
              " (bearings or planets that skid, a part that finds its seat under load?)";
     return std::string("a loss that grows with the ") + (speed ? "speed" : "load") +
-           " and saturates: it comes to " + size + ", all but a third of that within " + within +
-           (speed ? "" : " (dry friction that is full soon?)");
+           " and saturates: it comes to " + size +
+           (s[kSaturatesHow] == double(kSlowlyFull) ? ", slowly, half of that within "
+                                                    : ", all but a third of that within ") +
+           within + (speed ? "" : " (dry friction that is full soon?)");
   };
   f.words = [](const DriveModel&, const DriveShape& s, const DriveContext*) {
-    return s[kSaturatesGone] != 0.0
+    return s[kSaturatesHow] == double(kDiesAway)
                ? std::string("that dies away as the load grows")
                : std::string("that grows with the ") +
                      (s[kSaturatesOver] == double(kOverSpeed) ? "speed" : "load") +
