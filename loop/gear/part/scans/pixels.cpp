@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/part/pixels.h"
+#include "trueflank/loop/gear/part/scans/pixels.h"
 
 #include <optional>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/part/pits.h"
+#include "trueflank/loop/gear/part/scans/pits.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/part/spirals.h"
+#include "trueflank/loop/gear/part/scans/spirals.h"
 
 #include <algorithm>
 #include <cmath>

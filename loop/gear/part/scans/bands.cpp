@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/part/bands.h"
+#include "trueflank/loop/gear/part/scans/bands.h"
 
 #include "trueflank/loop/gear/local/bands.h"
 #include "trueflank/loop/gear/part/choice.h"
