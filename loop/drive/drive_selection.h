@@ -177,6 +177,9 @@ class DriveSelection {
   struct OneForm;
   struct PricedForm;
   void tell_as_one_form(DriveOutcome& outcome);
+  /// Of a set with two new forms without a name the first alone, as the last effect; empty of
+  /// others.
+  [[nodiscard]] static OneForm without_second_form(const OneForm& set);
   void add_sets_with_one_form(const DriveOutcome& outcome, const OneForm& base, double over,
                               bool with_load, std::vector<OneForm>& sets);
   /// What a set leaves, and its figures; false where an amount cannot be what it is called.

@@ -103,6 +103,25 @@ double shared_along(const DriveContext& context, const Eigen::VectorXd& value,
 
 }  // namespace
 
+DriveSelection::OneForm DriveSelection::without_second_form(const OneForm& set) {
+  const auto is_form = [&](std::size_t e) {
+    return set.from[e] < 0 && !set.effects[e].family->named;
+  };
+  std::size_t first = 0;
+  while (first + 1 < set.effects.size() && !is_form(first)) ++first;
+  if (first + 1 >= set.effects.size()) return {};
+  // (that form is the last again)
+  OneForm alone;
+  for (std::size_t e = 0; e + 1 < set.effects.size(); ++e) {
+    if (e == first) continue;
+    alone.effects.push_back(set.effects[e]);
+    alone.from.push_back(set.from[e]);
+  }
+  alone.effects.push_back(set.effects[first]);
+  alone.from.push_back(-1);
+  return alone;
+}
+
 void DriveSelection::tell_as_whole_forms(DriveOutcome& outcome) {
   constexpr std::size_t kFewestRows = 30;
   if (table_.points.size() < kFewestRows) return;
@@ -301,11 +320,28 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
   // stand.
   constexpr std::size_t kMostAsked = 3;
   std::set<const DriveFamily*> asked;
-  for (const auto& [figure, set] : likeliest) {
+  const auto rows_follow = [&](const OneForm& set) {
+    const DriveContext here = context();
+    for (std::size_t e = 0; e < set.effects.size(); ++e)
+      if ((e + 1 == set.effects.size() || (set.from[e] < 0 && !set.effects[e].family->named)) &&
+          !most_rows_follow(here, value_, set.effects, e))
+        return false;
+    return true;
+  };
+  for (const auto& [figure_of_set, set] : likeliest) {
     if (asked.size() == kMostAsked) break;
     if (!asked.insert(set->effects.back().family).second) continue;
     OneForm best = *set;
+    double figure = figure_of_set;
     let_held_out_rows_settle_sides(best);
+    if (!rows_follow(best)) {
+      // (of two forms the one that few rows follow is left out)
+      best = without_second_form(*set);
+      if (best.effects.empty() || !fits(best)) continue;
+      figure = best.figure(noise) + cost_of_looks(whole_.effects.size());
+      let_held_out_rows_settle_sides(best);
+      if (!rows_follow(best)) continue;
+    }
     bool drops_a_name = false, drops_any = false, drops_a_piece = false;
     for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
       if (std::find(best.from.begin(), best.from.end(), static_cast<int>(e)) != best.from.end())
@@ -321,7 +357,6 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
     // (names of which one takes back what the other does stand for no cause)
     const bool cancel = best.size < now.size && drop_names_that_cancel(outcome, best);
     if (cancel) drops_a_name = false;
-    const std::size_t form = best.effects.size() - 1;
     const DriveContext here = context();
     double shared = 1.0;
     for (std::size_t e = 0; e < best.effects.size(); ++e)
@@ -337,11 +372,6 @@ bool DriveSelection::tell_as_one_whole(DriveOutcome& outcome, bool pieces_too) {
     const double as_one = fewer && (cancel || drops_a_piece) ? 0.0 : kAsOne;
     if (gain < (drops_any && !drops_a_name ? as_one : mends || of_many ? kForBoth : kClearly))
       continue;
-    bool follow = true;
-    for (std::size_t e = 0; e < best.effects.size() && follow; ++e)
-      follow = !(e == form || (best.from[e] < 0 && !best.effects[e].family->named)) ||
-               most_rows_follow(here, value_, best.effects, e);
-    if (!follow) continue;
     if (exchange_unless_denied(outcome, best, gain)) return true;
   }
   return false;

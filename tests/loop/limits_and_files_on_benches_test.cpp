@@ -180,5 +180,22 @@ TEST(LimitsAndFilesOnBenches, ScatterOfAHeldLoadIsNoWay) {
   expect_all(13838, 2, draw);
 }
 
+// Beside a form that leaves nothing but noise a second one is found by chance, which few rows
+// follow: the first is told all the same.
+TEST(LimitsAndFilesOnBenches, RowsInAnotherUnitAreABlock) {
+  expect_all(14037, 1, [](Answers& answers, std::uint64_t seed) {
+    DrawnBench bench = any_rows(seed, true, 300);
+    const int from = static_cast<int>(300.0 * bench.between(0.3, 0.5)),
+              to = from + static_cast<int>(300.0 * bench.between(0.15, 0.25));
+    const auto closed =
+        loop::close_drive_loop(bench.model(), bench.data(nothing, 0.1, [&](const DrawnRow& r) {
+          return r.row >= from && r.row < to ? (0.73756 - 1.0) * r.output_nm : 0.0;
+        }));
+    answers.add(seed, "from line " + std::to_string(from + 2), closed,
+                leaves_noise(closed, bench) && says(closed, "over a block of the run") &&
+                    is_told_once(closed, "from_line", from + 2));
+  });
+}
+
 }  // namespace
 }  // namespace trueflank::test
