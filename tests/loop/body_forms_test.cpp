@@ -266,7 +266,8 @@ TEST(BodyForms, WallsByTheDirectionOfAPointAreNoEccentricity) {
       return 24.0 * std::cos(std::atan2(p[1], p[0]) - radians(69.0));
     });
     const auto result = measured(gear, made, 4.0, seed);
-    EXPECT_TRUE(tells(result, "by their direction, once per turn")) << list(result);
+    EXPECT_TRUE(tells(result, "by the side of the gear they stand on, once per turn"))
+        << list(result);
     ASSERT_EQ(terms_of(result).size(), 1U) << list(result);
     EXPECT_EQ(result.effects.size(), 1U) << list(result);
     EXPECT_NEAR(terms_of(result)[0]->amplitude(), 24.0, 1.0) << list(result);

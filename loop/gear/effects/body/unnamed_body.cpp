@@ -216,8 +216,9 @@ EffectFamily unnamed_body_wave() {
                                                   std::hypot(told.amounts[0], told.amounts[1])) +
                                               first_at(direction_rad, shape[0])) +
              ", as of a ring that is bent like a saddle";
-    std::string text = shape[1] == 0.0 ? "the walls stand out and lie back by their direction, "
-                                       : "the gear is out of round ";
+    std::string text =
+        shape[1] == 0.0 ? "the walls stand out and lie back by the side of the gear they stand on, "
+                        : "the gear is out of round ";
     text += times_per_turn(shape[0]) + where;
     if (!std::isnan(direction_rad))
       text += (shape[1] == 0.0 ? ", most"
