@@ -2,6 +2,7 @@
 #include "trueflank/loop/drive/effects/columns.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "trueflank/base/number_text.h"
@@ -274,6 +275,20 @@ std::string percent_in_words(const Parameter& figure) {
   Parameter size = figure;
   if (figure.value < 0.0) size = {figure.name, -figure.value, -figure.high, -figure.low};
   return with_interval(size, " %") + (figure.value < 0.0 ? " less" : " more");
+}
+
+bool goes_up_and_down(const DriveContext& context, double over) {
+  constexpr int kFewestTurns = 4, kFewestRows = 8;
+  int turns = 0, before = 0;
+  std::array<int, 2> rows{};
+  for (const BenchPoint& p : context.table.points) {
+    const int way = over == 0.0 ? p.way : over == 1.0 ? p.speed_way : p.warmth_stepped;
+    if (way == 0) continue;
+    ++rows[way > 0 ? 1 : 0];
+    turns += before != 0 && way != before ? 1 : 0;
+    before = way;
+  }
+  return turns >= kFewestTurns && rows[0] >= kFewestRows && rows[1] >= kFewestRows;
 }
 
 bool some_follows_the_load(const std::vector<DriveEffect>& effects) {

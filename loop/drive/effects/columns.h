@@ -177,6 +177,10 @@ inline constexpr const char* kNoLoss =
 /// Shares of the range at these levels and half way between them.
 [[nodiscard]] std::vector<double> places_between_levels(const DriveContext& context, double over);
 
+/// True where the load, the speed or the temperature (0, 1, 2) went up and down often enough that
+/// this is no drift, and both ways have rows enough.
+[[nodiscard]] bool goes_up_and_down(const DriveContext& context, double over);
+
 /// True where one without a name follows the load.
 [[nodiscard]] bool some_follows_the_load(const std::vector<DriveEffect>& effects);
 

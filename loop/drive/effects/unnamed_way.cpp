@@ -53,21 +53,6 @@ double form_at(const DriveContext& context, const BenchPoint& p, const DriveShap
   return std::max(0.0, 4.0 * x * (1.0 - x));
 }
 
-/// True where it went up and down often enough that this is no drift, and both have rows enough.
-bool goes_up_and_down(const DriveContext& context, double over) {
-  constexpr int kFewestTurns = 4, kFewestRows = 8;
-  int turns = 0, before = 0;
-  std::array<int, 2> rows{};
-  for (const BenchPoint& p : context.table.points) {
-    const int way = over == 0.0 ? p.way : over == 1.0 ? p.speed_way : p.warmth_stepped;
-    if (way == 0) continue;
-    ++rows[way > 0 ? 1 : 0];
-    turns += before != 0 && way != before ? 1 : 0;
-    before = way;
-  }
-  return turns >= kFewestTurns && rows[0] >= kFewestRows && rows[1] >= kFewestRows;
-}
-
 /// Ways that these rows tell apart: where nothing stands at a turn there is one.
 std::vector<double> turns_that_differ(const DriveContext& context, double over, bool that_stand) {
   std::vector<double> turns;

@@ -40,19 +40,6 @@ const std::vector<double>& above_load(const DriveContext& context, double behind
   });
 }
 
-/// The load turns often enough, and both ways have rows enough, that it is no drift.
-bool turns_often(const BenchTable& table) {
-  constexpr int kFewestTurns = 4, kFewestRows = 30;
-  int turns = 0, before = 0, rows = 0;
-  for (const BenchPoint& p : table.points) {
-    if (p.way_kept == 0) continue;
-    turns += before != 0 && p.way_kept != before ? 1 : 0;
-    before = p.way_kept;
-    ++rows;
-  }
-  return turns >= kFewestTurns && rows >= kFewestRows;
-}
-
 }  // namespace
 
 DriveFamily unnamed_backlash() {
@@ -75,7 +62,7 @@ DriveFamily unnamed_backlash() {
     std::vector<DriveShape> shapes;
     const BenchTable& table = context.table;
     if (table.has(true) && table.has(false)) return shapes;  // (the load changes its sense)
-    if (!turns_often(table)) return shapes;
+    if (!goes_up_and_down(context, 0.0)) return shapes;
     for (double share = kLeastBehind; share < kMostBehind; share *= kFiner)
       shapes.push_back({share * table.most_load_nm});
     return shapes;

@@ -2,12 +2,12 @@
 #include "trueflank/loop/gear/local/spirals.h"
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "trueflank/base/units.h"
+#include "trueflank/geometry/linear_equations.h"
 
 namespace trueflank::loop {
 namespace {
@@ -37,8 +37,7 @@ Eigen::MatrixXd waves(const MeansAround& means, int orders) {
       columns(k, 3 + 2 * order) = means.root[k] * std::sin(order * angle);
     }
   }
-  return Eigen::HouseholderQR<Eigen::MatrixXd>(columns).householderQ() *
-         Eigen::MatrixXd::Identity(kCells, columns.cols());
+  return orthonormal_columns(columns);
 }
 
 struct Best {

@@ -2,13 +2,14 @@
 #include "trueflank/loop/gear/part/few_index_values.h"
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <vector>
 
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/distributions.h"
 
 namespace trueflank::loop {
@@ -42,7 +43,7 @@ std::optional<RemainderFinding> eccentricity_of_few_values(const PartModel& mode
     columns.row(i) << 1.0, own[0], own[1];
     values[i] = row.deviation_um;
   }
-  const Eigen::VectorXd x = columns.colPivHouseholderQr().solve(values);
+  const Eigen::VectorXd x = least_squares(columns, values);
   const double left = (values - columns * x).squaredNorm(),
                all = (values.array() - values.mean()).matrix().squaredNorm();
   const double degrees = static_cast<double>(n - 3);

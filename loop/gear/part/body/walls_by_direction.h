@@ -5,8 +5,8 @@
 
 namespace trueflank::loop {
 
-/// Walls that stand out by their direction, for a wave around the gear from tooth to tooth and what
-/// a name of its order took of the rest.
+/// Walls that stand out by the direction, seen from the axis, in which they stand: told for a wave
+/// around the gear from tooth to tooth and what a name of its order took of the rest.
 void tell_walls_by_direction(PartModel& model);
 
 }  // namespace trueflank::loop
