@@ -3,6 +3,7 @@
 // processors with the digits of one.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -181,6 +182,39 @@ TEST(ScanOfManyPoints, AHeaderLongerThanAPieceIsNoData) {
   std::vector<std::string> notes;
   EXPECT_EQ(loop::read_xyz("a.xyz", text, notes)->points_mm.size(), 2U);
   EXPECT_TRUE(notes.empty());
+}
+
+/// A hollow towards 70 deg, and a lean over the face [um at an end].
+Process sunk_and_leaning(double lean_um) {
+  return grown([lean_um](const MadeGear&, const FlankSpot& s, const Vec3& p) {
+    const double off = std::remainder(std::atan2(p[1], p[0]) - 70.0 * M_PI / 180.0, 2.0 * M_PI) /
+                       (20.0 * M_PI / 180.0);
+    return -25.0 * std::exp(-off * off) + lean_um * s.v;
+  });
+}
+
+loop::LoopResult large_scan(double lean_um) {
+  const MadeGear gear = spur(24);
+  return close(gear, scan_of(gear, {sunk_and_leaning(lean_um)}, scanned(90000, 4.0, 5)), true);
+}
+
+TEST(LargeScans, AFormSoughtInSomePointsIsFittedToAll) {
+  const auto result = large_scan(0.0);
+  EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
+  ASSERT_EQ(result.effects.size(), 1U) << list(result);
+  ASSERT_EQ(result.effects[0].terms.size(), 1U) << list(result);
+  EXPECT_TRUE(tells(result, "a hollow of the body towards 70 deg")) << list(result);
+  // (a fifth of the points has an error of 0.3)
+  EXPECT_NEAR(result.effects[0].terms[0].amplitude(), 25.0, 0.25) << list(result);
+}
+
+TEST(LargeScans, WhatOnlyAllPointsShowIsToldBesideAForm) {
+  // (in 20 000 points it is four errors large, in all of them eight)
+  const auto result = large_scan(0.2);
+  EXPECT_TRUE(tells(result, "a hollow of the body towards 70 deg")) << list(result);
+  EXPECT_TRUE(std::any_of(result.effects.begin(), result.effects.end(), [](const auto& effect) {
+    return effect.id == "taper";
+  })) << list(result);
 }
 
 }  // namespace

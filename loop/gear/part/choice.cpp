@@ -256,6 +256,19 @@ void drop_what_mends_a_form(PartModel& model) {
 
 }  // namespace
 
+void settle_as_chosen(PartModel& model) {
+  constexpr int kRounds = 5;
+  for (int round = 0; round < kRounds; ++round) {
+    leave_out_across_steps(model);
+    model.effects = refined(model, model.effects);
+    std::copy_n(model.effects.begin(), model.options.given.size(), model.options.given.begin());
+    leave_out_across_steps(model);
+    bool again = settle_poses_of_scans(model);
+    again = linearise(model) || again;
+    if (!again) break;
+  }
+}
+
 bool weigh_beside_forms(PartModel& model) {
   constexpr int kMostTurns = 2;
   if (model.effects.empty() || model.table->points_mm.empty() || is_rounding(model)) return false;

@@ -11,6 +11,8 @@ namespace trueflank::loop {
 void move_back_what_is_off_centre(PartModel& model);
 /// Chooses until neither shapes nor places nor poses move any more, some rounds.
 void explain(PartModel& model);
+/// Places, widths, poses and displacements of what is chosen, by these values.
+void settle_as_chosen(PartModel& model);
 /// Of scans: values on the slopes of narrow forms scatter by where they lie there. Beside these
 /// forms they count as others do, and places and widths are sought once more. True where that is
 /// so.

@@ -24,6 +24,7 @@
 #include "trueflank/loop/gear/part/records.h"
 #include "trueflank/loop/gear/part/scans/pits.h"
 #include "trueflank/loop/gear/part/scans/pixels.h"
+#include "trueflank/loop/gear/part/scans/some_points.h"
 #include "trueflank/loop/gear/part/single_teeth.h"
 #include "trueflank/loop/gear/part/structure_left.h"
 #include "trueflank/loop/gear/part/taken_up.h"
@@ -109,6 +110,7 @@ void explain_part(PartModel& model) {
   if (scan_for_more) nominate(model);
   move_back_what_is_off_centre(model);
   explain(model);
+  if (scan_for_more && explain_by_some_points(model)) return;
   if (scan_for_more) explain_with_whole_forms(model);
   if (scan_for_more && begins_better(model)) return;
   constexpr int kRounds = 4, kMostBans = 6;
