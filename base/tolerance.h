@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Every tolerance of the program: named, dimensioned, justified. No bare 1e-6 elsewhere.
+// Tolerances that several folders share: named, dimensioned, justified.
 namespace trueflank::tolerance {
 
 /// Agreement asked of curve points with an independent derivation; doubles at 100 mm carry 1e-14.

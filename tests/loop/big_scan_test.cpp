@@ -3,14 +3,18 @@
 // processors with the digits of one.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "tests/loop/made_gears.h"
 #include "trueflank/loop/gear/finite_displacement.h"
 #include "trueflank/loop/gear/fit/plain_rms.h"
 #include "trueflank/loop/gear/part/choice.h"
+#include "trueflank/loop/gear/part/part_model.h"
+#include "trueflank/loop/gear/part/scans/some_points.h"
 #include "trueflank/loop/gear/table/rows_by_class.h"
 #include "trueflank/loop/gear/table/shared_table.h"
 #include "trueflank/loop/measured/read_measurement.h"
@@ -193,28 +197,54 @@ Process sunk_and_leaning(double lean_um) {
   });
 }
 
-loop::LoopResult large_scan(double lean_um) {
-  const MadeGear gear = spur(24);
-  return close(gear, scan_of(gear, {sunk_and_leaning(lean_um)}, scanned(90000, 4.0, 5)), true);
+/// A scan of a sunk gear for which a form without a name was chosen: it needs a search.
+class LargeScans : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::unique_ptr<loop::PartModel> scanned_with(double lean_um,
+                                                              int points = 90000) const {
+    loop::MeasuredData data;
+    data.scans.push_back(scan_of(gear_, {sunk_and_leaning(lean_um)}, scanned(points, 4.0, 5)));
+    auto model = std::make_unique<loop::PartModel>(
+        geometry_, *make_observations(geometry_, std::move(data), {.aligned = true}),
+        loop::PartOptions{});
+    divide_into_patches(*model);
+    model->effects = chosen_;
+    return model;
+  }
+
+  MadeGear gear_ = spur(24);
+  loop::FlankGeometry geometry_ = geometry_of(gear_);
+  std::vector<loop::Effect> chosen_{
+      {loop::find_family("unnamed"), loop::FlankChoice::kBoth, {0.0, 0.0, 0.0, 0.0}}};
+};
+
+TEST_F(LargeScans, AFormSoughtInSomePointsIsFittedToAll) {
+  const auto model = scanned_with(0.0);
+  const std::size_t rows = model->table->rows.size();
+  ASSERT_TRUE(explain_by_some_points(*model));
+  EXPECT_EQ(model->table->rows.size(), rows);
+  ASSERT_EQ(model->effects.size(), 1U);
+  const loop::Effect& form = model->effects[0];
+  ASSERT_EQ(form.family, loop::find_family("unnamed_body_place"));
+  EXPECT_NEAR(form.shape[2], 70.0, 0.5);
+  const auto fit = fit_of(*model, model->effects);
+  EXPECT_GT(fit->observations(), 0.8 * static_cast<double>(rows));
+  // (the error of all points is 0.05, of some 0.11)
+  EXPECT_NEAR(fit->coefficients()[fit->first_column(0)], -25.0, 0.25);
 }
 
-TEST(LargeScans, AFormSoughtInSomePointsIsFittedToAll) {
-  const auto result = large_scan(0.0);
-  EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
-  ASSERT_EQ(result.effects.size(), 1U) << list(result);
-  ASSERT_EQ(result.effects[0].terms.size(), 1U) << list(result);
-  EXPECT_TRUE(tells(result, "a hollow of the body towards 70 deg")) << list(result);
-  // (a fifth of the points has an error of 0.3)
-  EXPECT_NEAR(result.effects[0].terms[0].amplitude(), 25.0, 0.25) << list(result);
-}
-
-TEST(LargeScans, WhatOnlyAllPointsShowIsToldBesideAForm) {
+TEST_F(LargeScans, WhatOnlyAllPointsShowIsLeftToThem) {
   // (in 20 000 points it is four errors large, in all of them eight)
-  const auto result = large_scan(0.2);
-  EXPECT_TRUE(tells(result, "a hollow of the body towards 70 deg")) << list(result);
-  EXPECT_TRUE(std::any_of(result.effects.begin(), result.effects.end(), [](const auto& effect) {
-    return effect.id == "taper";
-  })) << list(result);
+  const auto model = scanned_with(0.2);
+  EXPECT_FALSE(explain_by_some_points(*model));
+  EXPECT_EQ(model->effects, chosen_);
+}
+
+TEST_F(LargeScans, OfFewPointsOrNamesAloneAllAreAskedAtOnce) {
+  EXPECT_FALSE(explain_by_some_points(*scanned_with(0.0, 50000)));
+  const auto model = scanned_with(0.0);
+  model->effects = {{loop::find_family("taper"), loop::FlankChoice::kBoth, {}}};
+  EXPECT_FALSE(explain_by_some_points(*model));
 }
 
 }  // namespace

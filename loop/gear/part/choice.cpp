@@ -258,8 +258,8 @@ void drop_what_mends_a_form(PartModel& model) {
 
 void settle_as_chosen(PartModel& model) {
   constexpr int kRounds = 5;
+  leave_out_across_steps(model);
   for (int round = 0; round < kRounds; ++round) {
-    leave_out_across_steps(model);
     model.effects = refined(model, model.effects);
     std::copy_n(model.effects.begin(), model.options.given.size(), model.options.given.begin());
     leave_out_across_steps(model);

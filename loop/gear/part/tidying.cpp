@@ -475,20 +475,24 @@ void drop_names_that_may_be_nothing(PartModel& model) {
   }
 }
 
-void take_over(PartModel& model, PartModel& other) {
-  model.effects = std::move(other.effects);
-  model.left_beside = std::move(other.left_beside);
-  model.discovery = std::move(other.discovery);
-  model.candidates = std::move(other.candidates);
-  model.banned = std::move(other.banned);
-  model.unseen = std::move(other.unseen);
-  model.table = other.table;
-  model.patches = std::move(other.patches);
-  model.options.given = std::move(other.options.given);
-  model.neighbours = std::move(other.neighbours);
+void take_over_choice(PartModel& model, const PartModel& other) {
+  model.effects = other.effects;
+  model.discovery = other.discovery;
+  model.candidates = other.candidates;
+  model.banned = other.banned;
+  model.unseen = other.unseen;
+  model.options.given = other.options.given;
+  model.given_p_values = other.given_p_values;
+  model.neighbours = other.neighbours;
   model.vetoed = other.vetoed;
   model.denied_spot = other.denied_spot;
-  model.given_p_values = std::move(other.given_p_values);
+}
+
+void take_over(PartModel& model, PartModel& other) {
+  take_over_choice(model, other);
+  model.left_beside = std::move(other.left_beside);
+  model.table = other.table;
+  model.patches = std::move(other.patches);
   model.problem = {};
   model.kept.valid = false;
   forget_fits(model);

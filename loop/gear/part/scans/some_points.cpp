@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What one wants to know of a form is as plain in twenty thousand points as in a million, and a
-// search takes as long as there are points.
+// Places and widths of a form are as plain in twenty thousand points as in a million, and a search
+// takes the longer the more points there are.
 #include "trueflank/loop/gear/part/scans/some_points.h"
 
 #include <algorithm>
-#include <memory>
 #include <utility>
 
 #include "trueflank/loop/gear/finite_displacement.h"
@@ -49,20 +48,6 @@ Observations thinned(const Observations& table) {
   return some;
 }
 
-/// What was chosen for other values of the same part.
-void take_over_choice(PartModel& model, const PartModel& other) {
-  model.effects = other.effects;
-  model.discovery = other.discovery;
-  model.candidates = other.candidates;
-  model.banned = other.banned;
-  model.unseen = other.unseen;
-  model.options.given = other.options.given;
-  model.given_p_values = other.given_p_values;
-  model.neighbours = other.neighbours;
-  model.vetoed = other.vetoed;
-  model.denied_spot = other.denied_spot;
-}
-
 /// A form without a name, or several teeth: names alone are chosen as fast from all points.
 bool needs_a_search(const std::vector<Effect>& effects) {
   constexpr int kSeveral = 3;
@@ -75,11 +60,10 @@ bool needs_a_search(const std::vector<Effect>& effects) {
 }  // namespace
 
 bool explain_by_some_points(PartModel& model) {
-  const PartOptions& asked = model.options;
-  if (model.table->points_mm.size() < kMany || asked.joined || asked.names_only ||
-      !asked.start.empty() || !needs_a_search(model.effects))
-    return false;
   PartOptions options = model.options;
+  if (model.table->points_mm.size() < kMany || options.joined || options.names_only ||
+      !options.start.empty() || !needs_a_search(model.effects))
+    return false;
   options.given.resize(first_told_here(model));
   SharedTable measured = model.table;
   if (measured->is_displaced) undo_displacement(model.geometry, measured.own());
