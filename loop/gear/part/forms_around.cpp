@@ -24,7 +24,6 @@
 #include "trueflank/loop/gear/part/runs_along.h"
 #include "trueflank/loop/gear/part/stretching_waves_beside.h"
 #include "trueflank/loop/gear/part/taken_up.h"
-#include "trueflank/loop/gear/part/tidying.h"
 #include "trueflank/loop/gear/remainder_around.h"
 #include "trueflank/loop/gear/shape_refinement.h"
 

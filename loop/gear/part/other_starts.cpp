@@ -17,7 +17,6 @@
 #include "trueflank/loop/gear/part/part_model.h"
 #include "trueflank/loop/gear/part/runs_along.h"
 #include "trueflank/loop/gear/part/structure_left.h"
-#include "trueflank/loop/gear/part/tidying.h"
 #include "trueflank/loop/gear/part/waves.h"
 
 namespace trueflank::loop {

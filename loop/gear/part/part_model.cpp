@@ -2,6 +2,7 @@
 #include "trueflank/loop/gear/part/part_model.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/finite_displacement.h"
@@ -122,6 +123,29 @@ void remove_effect(PartModel& model, std::size_t e) {
   if (e >= model.options.given.size()) return;
   model.options.given.erase(model.options.given.begin() + at);
   model.given_p_values.erase(model.given_p_values.begin() + static_cast<std::ptrdiff_t>(e - told));
+}
+
+void take_over_choice(PartModel& model, const PartModel& other) {
+  model.effects = other.effects;
+  model.discovery = other.discovery;
+  model.candidates = other.candidates;
+  model.banned = other.banned;
+  model.unseen = other.unseen;
+  model.options.given = other.options.given;
+  model.given_p_values = other.given_p_values;
+  model.neighbours = other.neighbours;
+  model.vetoed = other.vetoed;
+  model.denied_spot = other.denied_spot;
+}
+
+void take_over(PartModel& model, PartModel& other) {
+  take_over_choice(model, other);
+  model.left_beside = std::move(other.left_beside);
+  model.table = other.table;
+  model.patches = std::move(other.patches);
+  model.problem = {};
+  model.kept.valid = false;
+  forget_fits(model);
 }
 
 void add_candidate(PartModel& model, Effect effect) {

@@ -133,6 +133,10 @@ void put_in_place_of(PartModel& model, const std::vector<std::size_t>& these,
                      const std::vector<Effect>& with);
 /// Takes an effect out of the answer, wherever it stands.
 void remove_effect(PartModel& model, std::size_t e);
+/// What was chosen for another table of the same part; values, patches and places stay.
+void take_over_choice(PartModel& model, const PartModel& other);
+/// The answer of another model of the same part, with its table.
+void take_over(PartModel& model, PartModel& other);
 void add_candidate(PartModel& model, Effect effect);
 /// Index, runout and sizes: no trace, no scan.
 [[nodiscard]] bool has_single_values_only(const PartModel& model);

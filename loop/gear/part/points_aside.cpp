@@ -14,7 +14,6 @@
 #include "trueflank/loop/gear/part/choice.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/part/runs_along.h"
-#include "trueflank/loop/gear/part/tidying.h"
 
 namespace trueflank::loop {
 namespace {

@@ -475,29 +475,6 @@ void drop_names_that_may_be_nothing(PartModel& model) {
   }
 }
 
-void take_over_choice(PartModel& model, const PartModel& other) {
-  model.effects = other.effects;
-  model.discovery = other.discovery;
-  model.candidates = other.candidates;
-  model.banned = other.banned;
-  model.unseen = other.unseen;
-  model.options.given = other.options.given;
-  model.given_p_values = other.given_p_values;
-  model.neighbours = other.neighbours;
-  model.vetoed = other.vetoed;
-  model.denied_spot = other.denied_spot;
-}
-
-void take_over(PartModel& model, PartModel& other) {
-  take_over_choice(model, other);
-  model.left_beside = std::move(other.left_beside);
-  model.table = other.table;
-  model.patches = std::move(other.patches);
-  model.problem = {};
-  model.kept.valid = false;
-  forget_fits(model);
-}
-
 namespace {
 
 /// Of an index alone, where every tooth is left with a place of its own: whether chance makes a

@@ -37,10 +37,6 @@ void prefer_names(PartModel& model);
 void prefer_one_name_to_two(PartModel& model);
 /// A name whose own interval holds zero, now that all else stands beside it, is no finding.
 void drop_names_that_may_be_nothing(PartModel& model);
-/// What was chosen for another table of the same part; values, patches and places stay.
-void take_over_choice(PartModel& model, const PartModel& other);
-/// The answer of another model of the same part, with its table.
-void take_over(PartModel& model, PartModel& other);
 /// While structure is left, a name that does less than what is left, in every kind of record that
 /// shows it, is as likely a part of that: it is told as a form, or not at all. So is a machine's
 /// order that straight traces look like, and of an index what random places of few teeth may make.

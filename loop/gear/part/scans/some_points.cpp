@@ -12,7 +12,6 @@
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/part/structure_left.h"
 #include "trueflank/loop/gear/part/taken_up.h"
-#include "trueflank/loop/gear/part/tidying.h"
 #include "trueflank/loop/gear/table/thinned_rows.h"
 
 namespace trueflank::loop {
