@@ -20,7 +20,7 @@
 #include "trueflank/loop/gear/part/records.h"
 #include "trueflank/loop/gear/part/single_teeth.h"
 #include "trueflank/loop/gear/part/structure_left.h"
-#include "trueflank/loop/gear/part_frame.h"
+#include "trueflank/loop/gear/pose/part_frame.h"
 #include "trueflank/loop/gear/random_error.h"
 #include "trueflank/loop/gear/several_parts.h"
 #include "trueflank/loop/gear/shape_refinement.h"

@@ -14,7 +14,7 @@
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
 #include "trueflank/loop/discovery/distributions.h"
-#include "trueflank/loop/gear/arbitrary_pose.h"
+#include "trueflank/loop/gear/pose/arbitrary_pose.h"
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/orders_alike.h"
 #include "trueflank/loop/gear/part/ends.h"

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "trueflank/loop/gear/flank_geometry.h"
-#include "trueflank/loop/gear/pose.h"
+#include "trueflank/loop/gear/pose/pose.h"
 #include "trueflank/loop/measured/measurement.h"
 
 namespace trueflank::loop {

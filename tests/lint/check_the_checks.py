@@ -54,7 +54,7 @@ class Layers(Tree):
         self.assert_one("gear.h:3: geometry/ may not include train/")
 
     def test_a_room_that_includes_its_neighbour(self):
-        self.write("loop/discovery/engine.cpp", LICENCE + '#include "trueflank/loop/gear/pose.h"\n', listed=False)
+        self.write("loop/discovery/engine.cpp", LICENCE + '#include "trueflank/loop/gear/pose/pose.h"\n', listed=False)
         self.write("loop/CMakeLists.txt", "discovery/engine.cpp\n", listed=False)
         self.assert_one("engine.cpp:2: loop/discovery/ may not include loop/gear/")
 

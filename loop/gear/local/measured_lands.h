@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "trueflank/loop/gear/flank_geometry.h"
-#include "trueflank/loop/gear/pose.h"
+#include "trueflank/loop/gear/pose/pose.h"
 #include "trueflank/loop/measured/measurement.h"
 
 namespace trueflank::loop {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/pose.h"
+#include "trueflank/loop/gear/pose/pose.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/part_frame.h"
+#include "trueflank/loop/gear/pose/part_frame.h"
 
 #include <cmath>
 #include <variant>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/arbitrary_pose.h"
+#include "trueflank/loop/gear/pose/arbitrary_pose.h"
 
 #include <algorithm>
 #include <array>
