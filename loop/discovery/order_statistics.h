@@ -77,6 +77,12 @@ template <class T>
   return *place;
 }
 
+/// The value below which this share of all lies, 0 ... 1; there must be one.
+[[nodiscard]] inline double quantile(std::vector<double> values, double share) {
+  return nth_smallest(values,
+                      static_cast<std::size_t>(share * static_cast<double>(values.size() - 1)));
+}
+
 /// The middle value, of an even number the upper of the two; there must be one. May reorder them.
 template <class T>
 [[nodiscard]] T median(std::vector<T>& values) {

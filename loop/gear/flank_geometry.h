@@ -70,6 +70,8 @@ class FlankGeometry {
   [[nodiscard]] double pressure_angle_rad() const { return pressure_angle_; }
   [[nodiscard]] double root_form_roll_mm() const { return root_roll_; }
   [[nodiscard]] double tip_form_roll_mm() const { return tip_roll_; }
+  /// Two hands, which meet in the middle of the face.
+  [[nodiscard]] bool is_herringbone() const { return herringbone_; }
   [[nodiscard]] double edge_chamfer_mm() const { return edge_chamfer_; }
 
   /// What the design itself takes off or puts on the involute at a place of a flank [mm, along the

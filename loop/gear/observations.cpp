@@ -81,6 +81,12 @@ class TableBuilder {
            .file = scan.file});
       return;
     }
+    constexpr double kSomeBeside = 0.05;
+    if (quality.beside_face > kSomeBeside)
+      table.notes.push_back(
+          scan.file + printed(": about %.2g %% of its points stand above or below the teeth of "
+                              "this gear, on the rest of the part, and are left out",
+                              100.0 * quality.beside_face));
     table.poses.push_back(pose);
     table.pose_is_free.push_back(!options_.aligned);
     add_points(scan, pose, source);

@@ -8,6 +8,7 @@
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
 #include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/discovery/ring_scan.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/moved_sector.h"
@@ -309,6 +310,32 @@ class AroundSearch {
                   (series.opposite ? -1.0 : 1.0) * right.sum[k] / right.square[k]);
   }
 
+  /// The squares that a series' value of a tooth rests on: its variance is one over them.
+  static double square_of(const std::vector<ToothMoments>& of_teeth, int tooth, int side,
+                          const Series& series) {
+    const auto k = static_cast<std::size_t>(series.form);
+    const double right = of_teeth[ToothMoments::at(0, tooth)].square[k],
+                 left = of_teeth[ToothMoments::at(1, tooth)].square[k];
+    return side == 0 ? right : side == 1 ? left : 4.0 / (1.0 / left + 1.0 / right);
+  }
+
+  /// A flank of which clearly fewer points were measured scatters more, and two of them beside each
+  /// other would make a sector: their values count for as much less.
+  static void even_out(Eigen::Ref<Eigen::VectorXd> values, const std::vector<double>& squares) {
+    constexpr double kAsManyAs = 0.64;  // of the usual number
+    const double usual = median(std::vector<double>(squares));
+    double sum = 0.0, weights = 0.0;
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+      sum += squares[static_cast<std::size_t>(i)] * values[i];
+      weights += squares[static_cast<std::size_t>(i)];
+    }
+    const double mean = sum / weights;
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+      const double share = squares[static_cast<std::size_t>(i)] / usual;
+      if (share < kAsManyAs) values[i] = mean + (values[i] - mean) * std::sqrt(share);
+    }
+  }
+
   void look_around(const std::pair<MomentsOf, int>& key, const std::vector<ToothMoments>& of_teeth,
                    const std::vector<int>& teeth, int side) {
     const auto n = static_cast<Eigen::Index>(teeth.size());
@@ -316,11 +343,15 @@ class AroundSearch {
     Eigen::MatrixXd series(n, 0);
     const auto add_series = [&](const Series& one, int of_side) {
       Eigen::VectorXd values(n);
+      std::vector<double> squares;
       for (Eigen::Index i = 0; i < n; ++i) {
-        const auto value = value_of(of_teeth, teeth[static_cast<std::size_t>(i)], of_side, one);
+        const int tooth = teeth[static_cast<std::size_t>(i)];
+        const auto value = value_of(of_teeth, tooth, of_side, one);
         if (!value) return;
         values[i] = *value;
+        squares.push_back(square_of(of_teeth, tooth, of_side, one));
       }
+      if (key.first == MomentsOf::kScan) even_out(values, squares);
       series.conservativeResize(Eigen::NoChange, series.cols() + 1);
       series.col(series.cols() - 1) = values;
       what.push_back(one);

@@ -46,6 +46,22 @@ TEST(NothingHidden, LongTailsOfAnIndexBesideTracesAreNoStructure) {
   EXPECT_LE(12 * alarms, 1 * all);
 }
 
+// Some flanks get three points and some seven: what scatters more is no sector.
+TEST(NothingHidden, FlanksOfFewPointsMakeNoSectors) {
+  const unsigned all = survey_size(60U, 240U);
+  unsigned alarms = 0;
+  for (unsigned seed = 1; seed <= all; ++seed) {
+    const MadeGear gear = spur(24 + static_cast<int>(seed * 7 % 40));
+    const int per_flank = 3 + static_cast<int>(seed % 5);
+    constexpr int kOf = 6;  // of so many points one is kept
+    loop::ScanData scan = scan_of(gear, {}, scanned(2 * gear.teeth * per_flank * kOf, 3.0, seed));
+    std::mt19937_64 random(seed);
+    std::erase_if(scan.points_mm, [&](const Vec3&) { return random() % kOf != 0; });
+    alarms += close(gear, scan, true).verdict != loop::Verdict::kNoEffect;
+  }
+  EXPECT_LE(20 * alarms, all);
+}
+
 /// Patches of a scan whose errors on the left are so many times as large.
 loop::Patches patches_of_louder_left(double times) {
   const MadeGear gear = spur(29);

@@ -22,18 +22,21 @@ struct Pose {
 
 /// Where a scan in any pose lies on the gear: axis by principal directions (where these lead
 /// nowhere, from where the scan stands, and by trial over all directions), centre by the tip
-/// circle, phase by trial, then all by robust Gauss-Newton on the exact distance (Tukey weights). A
-/// spur or helical gear looks the same turned by a pitch and turned over: of these poses the one
-/// that moves the scan least is taken, so tooth numbers of a free scan are relative. Accuracy: 1e-6
-/// mm on points without noise, tests/loop/pose_test.cpp. Linear in the points. Errors:
-/// kInconsistent where the scan is not of this gear; kOutOfRange with too few points.
+/// circle, phase by trial, height by where the points lie on flanks (of a part that is longer than
+/// the gear), then all by robust Gauss-Newton on the exact distance (Tukey weights; with its height
+/// for herringbone gears). A spur or helical gear looks the same turned by a pitch and turned over:
+/// of these poses the one that moves the scan least is taken, so tooth numbers of a free scan are
+/// relative. Accuracy: 1e-6 mm on points without noise, tests/loop/pose_test.cpp. Linear in the
+/// points. Errors: kInconsistent where the scan is not of this gear; kOutOfRange with too few
+/// points.
 [[nodiscard]] Result<Pose> fit_pose(const FlankGeometry& geometry, const ScanData& scan);
 
 /// Share of a scan's points near the flanks, tips and roots of the gear in a pose, and the median
 /// distance of those near a flank.
 struct PoseQuality {
   double share = 0.0, median_mm = kNaN;
-  double in_ring = 0.0;  ///< share of all points that lie in the ring of the flanks
+  double in_ring = 0.0;  ///< share of all points that lie in the ring of the flanks, on the face
+  double beside_face = 0.0;  ///< share of all points that lie above or below the face
 };
 [[nodiscard]] PoseQuality pose_quality(const FlankGeometry& geometry, const ScanData& scan,
                                        const Pose& pose);

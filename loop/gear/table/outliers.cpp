@@ -10,6 +10,7 @@
 
 #include "trueflank/base/threads.h"
 #include "trueflank/loop/discovery/order_statistics.h"
+#include "trueflank/loop/gear/table/bore_wall.h"
 
 namespace trueflank::loop {
 namespace {
@@ -292,6 +293,7 @@ void leave_out_outliers(const FlankGeometry& geometry, Observations& table) {
         table.left_out.push_back(
             {row.kind, table.place(row), row.deviation_um - levels[k].centre_um});
     }
+  for (const std::uint32_t i : rows_off_the_bore(geometry, table)) out[i] = true;
   if (std::find(out.begin(), out.end(), true) != out.end()) take_out(out, table);
 }
 
