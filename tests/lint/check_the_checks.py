@@ -9,6 +9,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import check_bindings
+import check_documents
 import check_layers
 import check_locale
 import check_names
@@ -190,6 +191,31 @@ class Surveys(Tree):
         for campaign in ("trueflank_campaign(loop Others.*:Places.*)",
                          "set(surveys\n  Others\n  Places)\ntrueflank_campaign(loop ${surveys})"):
             self.assertEqual(self.complaints(campaign), [])
+
+
+class Documents(Tree):
+    def complaints(self, readme, page="# 0001: Folders\n", index="- [0001](0001-folders.md): Folders\n"):
+        self.write("README.md", readme, listed=False)
+        self.write("docs/loop.md", "# The loop\n## What is *told*, and how\n## Files\n## Files\n", listed=False)
+        self.write("docs/decisions/0001-folders.md", page, listed=False)
+        self.write("docs/decisions/README.md", "# Decisions\n" + index, listed=False)
+        return check_documents.check(self.root)
+
+    def test_links_that_lead_somewhere_pass(self):
+        self.assertEqual(self.complaints("# Gears\n[a](docs/loop.md) [b](docs/loop.md#what-is-told-and-how) [c](#gears)\n"
+                                         "[d](docs/loop.md#files-1) [e](https://example.org/x) `[f](no.md)`\n"
+                                         "```\n[g](no.md)\n```\n"), [])
+
+    def test_links_that_lead_nowhere_are_found(self):
+        self.assertEqual(self.complaints("[a](docs/lop.md)"), ["README.md: the link docs/lop.md leads to no file"])
+        self.assertEqual(self.complaints("[a](docs/loop.md#told)"), ["README.md: the link docs/loop.md#told leads to no heading"])
+
+    def test_a_decision_that_is_not_listed_is_found(self):
+        self.assertEqual(self.complaints("", index=""), ["docs/decisions/README.md: 0001-folders.md is listed 0 times"])
+
+    def test_a_decision_under_another_heading_is_found(self):
+        self.assertEqual(self.complaints("", page="# 0001 Folders\n"),
+                         ['docs/decisions/0001-folders.md: its heading is "# 0001 Folders", the index has "0001: Folders"'])
 
 
 class Bindings(Tree):
