@@ -59,6 +59,7 @@ FlankGeometry::FlankGeometry(const TrainGear& gear, double bore_radius_mm)
     : FlankGeometry(gear.profile, gear.face_width_mm, bore_radius_mm, gear.twist.herringbone) {
   designed_ = gear.deviation;
   edge_chamfer_ = gear.edge_chamfer_mm;
+  relief_groove_ = gear.twist.relief_groove_mm;
 }
 
 double FlankGeometry::designed_deviation_mm(const Place& place) const {

@@ -73,6 +73,11 @@ class FlankGeometry {
   /// Two hands, which meet in the middle of the face.
   [[nodiscard]] bool is_herringbone() const { return herringbone_; }
   [[nodiscard]] double edge_chamfer_mm() const { return edge_chamfer_; }
+  /// True this near the groove between the halves of herringbone teeth, or in it.
+  [[nodiscard]] bool near_relief_groove(double z_mm, double near_mm) const {
+    return relief_groove_ > 0.0 &&
+           std::abs(z_mm - 0.5 * face_width_) < 0.5 * relief_groove_ + near_mm;
+  }
 
   /// What the design itself takes off or puts on the involute at a place of a flank [mm, along the
   /// normal, + = material]: relief, crowning.
@@ -161,7 +166,7 @@ class FlankGeometry {
   double tip_half_rad_, root_half_rad_;  ///< of the tooth at the tip, of the gap at the root
   bool herringbone_;
   FlankDeviation designed_ = {};
-  double edge_chamfer_ = 0.0;
+  double edge_chamfer_ = 0.0, relief_groove_ = 0.0;
 };
 
 inline FlankGeometry::Undirected FlankGeometry::found_at(const Foot<OneAtATime>& foot,

@@ -256,7 +256,7 @@ class TableBuilder {
     const auto is_usable = [&](std::size_t i, const Place& place) {
       const std::array<double, 3>& p = points[i];
       return place.surface != Surface::kNone && p[2] > inside && p[2] < b - inside &&
-             looks_outwards(scan, i, pose, place) &&
+             !geometry_.near_relief_groove(p[2], inside) && looks_outwards(scan, i, pose, place) &&
              !(place.surface == Surface::kFlank && lands.covers(place, p));
     };
     const auto put_places = [&](std::size_t from, std::span<Placed> to) {
