@@ -167,9 +167,13 @@ TEST(Pose, OfAHerringboneGearHasItsHeight) {
     scan.points_mm.push_back({place.radius_mm * std::cos(place.polar_rad) + 20.0,
                               place.radius_mm * std::sin(place.polar_rad), z - 4.0});
   }
-  const auto pose = loop::fit_pose(geometry, scan);
-  ASSERT_TRUE(pose.has_value());
-  EXPECT_LT(loop::pose_quality(geometry, scan, *pose).median_mm, 1e-6);
+  for (const bool turned_over : {false, true}) {
+    if (turned_over)
+      for (Vec3& p : scan.points_mm) p = {p[0], -p[1], -p[2]};
+    const auto pose = loop::fit_pose(geometry, scan);
+    ASSERT_TRUE(pose.has_value());
+    EXPECT_LT(loop::pose_quality(geometry, scan, *pose).median_mm, 1e-6) << turned_over;
+  }
 }
 
 TEST(Pose, IsNotPulledByOutliers) {

@@ -303,6 +303,18 @@ double PoseSearch::cost(const Pose& pose, const Points& points, double most) con
 }
 
 double PoseSearch::search_phase(Pose& pose) const {
+  if (!geometry_.is_herringbone()) return search_phase_as_it_stands(pose);
+  // Turned over, its lower half has the other hand.
+  const Eigen::Matrix3d over = Eigen::AngleAxisd(kPi, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  Pose turned_over{over * pose.rotation, over * pose.translation_mm +
+                                             Eigen::Vector3d(0.0, 0.0, geometry_.face_width_mm())};
+  const double cost = search_phase_as_it_stands(pose),
+               cost_over = search_phase_as_it_stands(turned_over);
+  if (cost_over < cost) pose = turned_over;
+  return std::min(cost, cost_over);
+}
+
+double PoseSearch::search_phase_as_it_stands(Pose& pose) const {
   const double pitch = kTwoPi / geometry_.teeth();
   const double step = 0.25 * geometry_.gear().normal_module_mm;
   constexpr int kPhases = 24;

@@ -71,8 +71,10 @@ class PoseSearch {
   /// end.
   [[nodiscard]] double cost(const Pose& pose, const ScanPoints& points,
                             double most = kInfinite) const;
-  /// Best turn about the axis (and small shift), by trial; returns its cost.
+  /// Best turn about the axis (and small shift), by trial, of herringbone gears with either end up;
+  /// returns its cost.
   [[nodiscard]] double search_phase(Pose& pose) const;
+  [[nodiscard]] double search_phase_as_it_stands(Pose& pose) const;
   /// Tells the cost of every pose that is among the `best` cheapest, on all processors; others may
   /// get an infinite one. Which of them do depends on the order of work, the cheapest do not.
   void judge(std::vector<std::pair<double, Pose>>& tried, const ScanPoints& points,
